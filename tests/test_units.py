@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
-import time
 from typing import Annotated
 
 import pint
@@ -151,10 +150,8 @@ def test_sizes_that_nothing_has_are_refused(kind: str) -> None:
 
 
 def test_power_towers_do_not_hang() -> None:
-    start = time.process_time()
-    with pytest.raises(InputError):
+    with pytest.raises(InputError):  # worked out, it has more digits than memory holds
         quantity("9**9**9**9 m", "length")
-    assert time.process_time() - start < 1.0
 
 
 @given(
@@ -337,9 +334,11 @@ def test_json_schema_accepts_what_the_model_accepts() -> None:
     assert {"type": "number"} in schema["share"]["anyOf"]
 
 
-def test_ten_thousand_models_of_six_fields_in_a_few_seconds() -> None:
-    # 0.3 s measured on one core, ten times it for slower ones; a parser of expressions takes 13 s
-    start = time.process_time()
-    for _ in range(10_000):
-        Sample(**VALID)
-    assert time.process_time() - start < 3.0
+def test_models_ask_no_parser_of_expressions(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It takes 40 times as long as the rest of a model of six fields."""
+
+    def refuse(*_: object, **__: object) -> None:
+        raise AssertionError("asked")
+
+    monkeypatch.setattr(pint.registry.UnitRegistry, "parse_expression", refuse)
+    Sample(**{**VALID, "width": "1.2345 m"})

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @session_command(
     short_help="Set a compound's test factor by rolling tests.",
-    without=("changed",),
+    without=("changed", "language"),
     examples_of=(
         "conveyor anchor mine.yaml --tests campaign.csv -o mine-tested.yaml",
         "conveyor anchor standard-cover --tests campaign.csv --name acme-x -o acme-x.yaml",

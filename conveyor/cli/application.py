@@ -107,6 +107,16 @@ def _common_options(
     """Options that belong to no command."""
 
 
+class ReportLanguage(StrEnum):
+    """Languages of reports."""
+
+    ENGLISH = "en"
+    GERMAN = "de"
+    SPANISH = "es"
+    PORTUGUESE = "pt"
+    CHINESE = "zh"
+
+
 class ImageKind(StrEnum):
     """Formats of figures."""
 
@@ -144,6 +154,15 @@ UnitsOption = Annotated[
         "Units of the output; else report.units of the spec. JSON is always SI.",
         None,
         "--units",
+        show_default=False,
+    ),
+]
+LanguageOption = Annotated[
+    ReportLanguage | None,
+    option(
+        "Language of page, PDF and workbook; else report.language of the spec. Tables as files and JSON are English.",
+        None,
+        "--language",
         show_default=False,
     ),
 ]

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 @session_command(
     short_help="Find the best design and write its spec.",
+    without=("language",),
     examples_of=(
         "conveyor optimise search.yaml -o best.yaml",
         "conveyor optimise search.yaml -o best.yaml --workers 8",

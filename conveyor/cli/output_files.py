@@ -42,8 +42,9 @@ _LARGEST_FILE = 100_000_000
 class Outputs:
     """Inputs of a command, its output files, and their contents."""
 
-    def __init__(self, *inputs: str | Path | None, force: bool) -> None:
+    def __init__(self, *inputs: str | Path | None, force: bool, language: str | None = None) -> None:
         self._inputs = [Path(path) for path in inputs if path is not None]
+        self._language = language
         self._force = force
         self._asked: list[tuple[str, Path]] = []
         self._folders: list[Path] = []
@@ -133,6 +134,7 @@ class Outputs:
         """Make the registered files of a report; a page of its own is built by `page`, called with `on_paper`."""
         from conveyor.report import html
 
+        contents = self.in_language(contents)
         page = page or partial(html.build_page, contents)
         for done, path in enumerate(self._reports):
             if told is not None:
@@ -145,6 +147,10 @@ class Outputs:
             self.add("tables", folder, table_files.encode_tables(contents, folder, kind))
         if self._plots is not None:
             self.figures({drawing.name: drawing.draw() for drawing in contents.drawings}, *self._plots)
+
+    def in_language(self, contents: Contents) -> Contents:
+        """The contents in the language of the command."""
+        return contents if self._language is None else contents.in_language(self._language)
 
     def _write_report(self, contents: Contents, page: Callable[..., Html], path: Path) -> None:
         """Make the workbook, page or PDF of a report, by file ending."""

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from conveyor.cli.application import (
     Force,
+    LanguageOption,
     Quiet,
     Shelves,
     app,
@@ -150,6 +151,7 @@ def fit(
     write_shift: Annotated[
         Path | None, option("Write the shift factors (.csv), to be edited and given to --shift.", "FILE")
     ] = None,
+    language: LanguageOption = None,
     force: Force = False,
     quiet: Quiet = False,
 ) -> None:
@@ -157,7 +159,7 @@ def fit(
     from conveyor import shelf as shelf_of
     from conveyor.fitting import fitted_compound as compound_file
 
-    to = Outputs(*data, shift, strain, spec, force=force)
+    to = Outputs(*data, shift, strain, spec, force=force, language=language)
     compounds = to.reports(output, *SPEC, kind=output_marks.COMPOUND)
     to.file("--plot", plot, *FIGURE)
     to.file("--write-shift", write_shift, ".csv")
@@ -252,8 +254,8 @@ def _verdict_lines(
         raise InputError("-o .xlsx, .html, .pdf, --spec: a Prony table has no measurement to judge")
     if spec is not None:
         criteria = (*criteria, *coverage_criteria(rubber, load(spec)))
-    page = partial(fit_page.build_page, rubber, criteria, said)
-    to.write(fit_tables.fit_contents(rubber, criteria, said), page=page)
+    contents = to.in_language(fit_tables.fit_contents(rubber, criteria, said))
+    to.write(contents, page=partial(fit_page.build_page, rubber, criteria, said, words=contents.translator))
     return ["verdict", *(f"  {one.verdict:>11}  {one.line}" for one in criteria)]
 
 

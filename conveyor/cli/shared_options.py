@@ -14,6 +14,7 @@ from conveyor.cli.application import (
     AsJson,
     FieldChanges,
     Force,
+    LanguageOption,
     Progress,
     Quiet,
     Shelves,
@@ -41,6 +42,7 @@ class Session:
     """Values of the shared options."""
 
     units: UnitsOption = None
+    language: LanguageOption = None
     force: Force = False
     as_json: AsJson = False
     quiet: Quiet = False
@@ -49,7 +51,7 @@ class Session:
 
     def outputs(self, *inputs: str | Path | None) -> Outputs:
         """Output files of a command with these inputs."""
-        return Outputs(*inputs, force=self.force)
+        return Outputs(*inputs, force=self.force, language=self.language)
 
     def read(self, spec: Path) -> Conveyor:
         """Read the conveyor of a spec and change its fields by --set."""

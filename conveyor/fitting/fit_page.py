@@ -10,11 +10,13 @@ from conveyor.fitting import fit_tables
 from conveyor.fitting.fit_verdict import GLOSSARY, Criterion, is_accepted
 from conveyor.fitting.fitted_compound import FittedCompound
 from conveyor.fitting.quality_figures import fit_figures
+from conveyor.languages.translator import Translator
 from conveyor.models.report import Paper
 from conveyor.report.page_elements import PagePart, bullet_list, fact_list, page_html, table_html
 from conveyor.report.page_elements import verdict_mark as mark
 from conveyor.report.svg import captioned_drawing, figure_svg
 from conveyor.report.table_model import PagePlacement
+from conveyor.report.translated_page import translate_page
 from conveyor.text.markup import Html, element, join_html
 
 
@@ -25,6 +27,7 @@ def build_page(
     *,
     paper: Paper = "A4",
     on_paper: bool = False,
+    words: Translator | None = None,
 ) -> Html:
     """Return the page of a fit.
 
@@ -41,12 +44,14 @@ def build_page(
         To print on.
     on_paper : bool
         True for figures drawn for paper, not for a screen.
+    words : Translator, optional
+        Translates its texts.
     """
     known = fit_tables.document_fields(fitted, document)
     said = [(name, known.get(name, Html("&nbsp;"))) for name in fit_tables.DOCUMENT_FIELDS]
     compound = fitted.compound
     *others, errors, curve = [
-        captioned_drawing(figure_svg(made, f"fit-{name}", caption, on_paper=on_paper), caption)
+        captioned_drawing(figure_svg(made, f"fit-{name}", caption, on_paper=on_paper, words=words), caption)
         for name, caption, made in fit_figures(fitted)
     ]
     parts = (
@@ -57,10 +62,11 @@ def build_page(
         PagePart("unknown", "Not known", bullet_list(compound.missing)),
         PagePart("glossary", "Glossary", _glossary_list()),
     )
-    return page_html(
+    page = page_html(
         compound.name, "Master curve of a rubber", fact_list(said, "facts document"), parts,
         f"{output_marks.program_version()}, {date.today().isoformat()}", paper=paper,
     )  # fmt: skip
+    return page if words is None else translate_page(page, words)
 
 
 def _verdict_sheet(fitted: FittedCompound, criteria: Sequence[Criterion], drawn: Sequence[Html]) -> Html:

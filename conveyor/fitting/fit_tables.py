@@ -11,6 +11,7 @@ import numpy as np
 from conveyor.files import output_marks
 from conveyor.fitting.fit_verdict import GLOSSARY, Criterion, compound_law
 from conveyor.fitting.fitted_compound import FittedCompound
+from conveyor.models.given_names import given_names
 from conveyor.models.report import Paper
 from conveyor.report.table_model import Column, Contents, ReportHead, Table
 from conveyor.units.sentences import percent, to_celsius
@@ -48,7 +49,8 @@ def fit_contents(
         Table("glossary", "Glossary", "Glossary", plain, GLOSSARY),
         Table("provenance", "Read and done", "Made by", plain[1:], (("", output_marks.program_version()),)),
     )  # fmt: skip
-    head = ReportHead(fitted.compound.name, "Master curve of a rubber", about, "", paper)
+    given = given_names(fitted.compound) | {*about.values(), *fitted.metadata.values(), *fitted.files}
+    head = ReportHead(fitted.compound.name, "Master curve of a rubber", about, "", paper, names=given)
     return Contents.of(head, parts, "SI")
 
 

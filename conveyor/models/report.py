@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
+from conveyor.languages.catalogue import Language
 from conveyor.models.base import Model, Name
 from conveyor.units import System
 from conveyor.units.unit_systems import trade_of
@@ -30,6 +31,8 @@ class Report(Model):
     """Revision of the document."""
     units: System = "SI"
     """System of units of reports and refusals; with US motors are suggested of NEMA, pulleys of CEMA."""
+    language: Language = "en"
+    """Language of page, PDF and workbook; tables as files, JSON and the terminal are English."""
     paper: Paper | None = None
     """Paper that workbooks are set up for."""
 

@@ -16,7 +16,7 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Table
-from conveyor.text.printable import escape_controls
+from conveyor.text.printable import escape_controls, text_width
 from conveyor.units import System
 from conveyor.units.presentation import NEVER, display_unit
 
@@ -132,7 +132,7 @@ def write_table(
         wanted = min(widest, max(_NARROWEST, longest, round(_BOLD_WIDTH * _two_line_width(name)) + 3))
         sheet.column_dimensions[letter].width = max(known, wanted)
     _align_tops(sheet, (row + 1, row + len(shown.rows)), (column, column + len(names) - 1))
-    wrapped = any(len(name) + 2 > _column_width(sheet, j) for j, name in enumerate(names, start=column))
+    wrapped = any(text_width(name) + 2 > _column_width(sheet, j) for j, name in enumerate(names, start=column))
     known_height = sheet.row_dimensions[row].height or 0.0
     sheet.row_dimensions[row].height = max(known_height, 31.0 if wrapped else 16.0)
     return row + len(shown.rows)
@@ -168,7 +168,7 @@ def _text_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], wides
         else:
             _copy_style(cell, model)
         write_value(cell, value)
-        longest = max(longest, len(value) + 3)
+        longest = max(longest, text_width(value) + 3)
     return longest
 
 
@@ -191,7 +191,9 @@ def _number_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], for
 
 def line_count(words: str, width: float) -> int:
     """Number of lines of a text at a column width [digits]."""
-    return max(1, len(wrap(words, int(_LETTERS_PER_DIGIT * width))))
+    room = int(_LETTERS_PER_DIGIT * width)
+    letters = text_width(words)
+    return max(1, len(wrap(words, room)) if letters == len(words) else math.ceil(letters / room))
 
 
 def _copy_style(cell: Any, model: Any) -> None:
@@ -247,7 +249,7 @@ def _two_line_width(name: str) -> int:
     """Smallest width at which a name takes at most two lines [characters]."""
     words = name.split()
     breaks = [(" ".join(words[:i]), " ".join(words[i:])) for i in range(len(words))]
-    return min(max(map(len, lines)) for lines in breaks)
+    return min(max(map(text_width, lines)) for lines in breaks)
 
 
 def _number_width(value: Any, shown: str) -> int:

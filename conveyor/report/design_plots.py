@@ -153,7 +153,7 @@ class DesignPlots:
         figure, (axis,) = stacked_axes(1, 4.4)
         x, y = self.objectives(1), self.objectives(0)
         some = _spread_indices(len(x), _MOST_DOTS)
-        for keeps, ink, label in ((True, curve_colour(0), "keeps the limits"), (False, "0.7", "does not")):
+        for keeps, ink, label in ((True, curve_colour(0), "keeps the limits"), (False, "0.7", "breaks a limit")):
             rows = some[figures.keeps[some] == keeps]
             axis.plot(x[rows], y[rows], ".", color=ink, markersize=5, label=label)
         on = np.flatnonzero(figures.front)

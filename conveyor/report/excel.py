@@ -26,6 +26,7 @@ from conveyor.report.sheet_paper import set_up_print
 from conveyor.report.sheet_writer import MOST_ROWS, SheetWriter, TablePlace, long_table_file
 from conveyor.report.table_files import csv_bytes
 from conveyor.report.table_model import CHECKS_AND_NOTES, Contents
+from conveyor.report.translated_workbook import translate_contents, translate_sheets
 
 SUMMARY_SHEET: Final = "Summary"
 """The first sheet of the workbook of a conveyor."""
@@ -149,6 +150,10 @@ def build_workbook(
 ) -> Workbook:
     """Build the workbook of a report; `stem` names further files, `live` receives the values of its formulas."""
     about, fills = contents.document, _LAYOUTS.get(contents.layout, {})
+    words = contents.translator
+    if words is not None:
+        contents = translate_contents(contents, words)
+    sheet_name = str if words is None else words.heading
     book = Workbook()
     book.remove(book.worksheets[0])
     book.properties.title = cell_text(about.title)
@@ -157,15 +162,18 @@ def build_workbook(
     placed: dict[str, tuple[Worksheet, TablePlace]] = {}
     front = "governing_figures" in contents
     if front:
-        book.create_sheet(SUMMARY_SHEET)
+        first = book.create_sheet(sheet_name(SUMMARY_SHEET))
     for title in dict.fromkeys((*fills, *contents.sheets)):
         if title in contents.sheets or title not in _OPTIONAL_SHEETS:
-            page = SheetWriter(book.create_sheet(title), contents, stem, placed, {} if live is None else live)
+            values = {} if live is None else live
+            page = SheetWriter(book.create_sheet(sheet_name(title)), contents, stem, placed, values, name=title)
             fills.get(title, sheets.stacked_sheet)(page)
             set_up_print(page.sheet, header, paper=about.paper, starts=page.print_only())
     if front:  # its charts refer to tables of the other sheets
-        summary_sheet.write_summary(SheetWriter(book[SUMMARY_SHEET], contents, stem), placed)
-        set_up_print(book[SUMMARY_SHEET], header, paper=about.paper)
+        summary_sheet.write_summary(SheetWriter(first, contents, stem), placed, sheet_name(CHECKS_AND_NOTES))
+        set_up_print(first, header, paper=about.paper)
+    if words is not None:
+        translate_sheets(book, words)
     return book
 
 

@@ -10,6 +10,7 @@ from typing import Final
 from conveyor.errors import InputError
 from conveyor.files.atomic_write import check_writable, save_files
 from conveyor.files.output_marks import package_version
+from conveyor.languages.translator import Translator
 from conveyor.report.merged_notes import NOTE_HEADINGS, sort_notes
 from conveyor.report.page_elements import (
     PagePart,
@@ -24,6 +25,7 @@ from conveyor.report.page_elements import (
 )
 from conveyor.report.svg import captioned_drawing, figure_svg
 from conveyor.report.table_model import Contents, Drawing, Table
+from conveyor.report.translated_page import translate_page
 from conveyor.text.markup import Html, element, join_html
 from conveyor.units import System
 
@@ -67,7 +69,8 @@ def build_page(contents: Contents, *, on_paper: bool = False) -> Html:
     document = fact_list(about.said.items(), "facts document") if about.said else Html("")
     parts = [part for named in contents.page if (part := _page_part(contents, *named, on_paper=on_paper)).content]
     kind, top = f"{about.kind}, {date.today().isoformat()}", join_html([document, _page_top(contents)])
-    return page_html(about.title, kind, top, parts, made, paper=about.paper)
+    page = page_html(about.title, kind, top, parts, made, paper=about.paper)
+    return page if contents.translator is None else translate_page(page, contents.translator)
 
 
 def _page_top(contents: Contents) -> Html:
@@ -106,14 +109,16 @@ def _page_table(shown: Table, caption: str, system: System) -> Html:
 
 def _page_drawings(contents: Contents, above: str, *, on_paper: bool) -> list[Html]:
     """Drawings above a table or part."""
-    return [_page_drawing(one, on_paper=on_paper) for one in contents.drawings if one.above == above]
+    words = contents.translator
+    return [_page_drawing(one, words, on_paper=on_paper) for one in contents.drawings if one.above == above]
 
 
-def _page_drawing(drawing: Drawing, *, on_paper: bool) -> Html:
+def _page_drawing(drawing: Drawing, words: Translator | None, *, on_paper: bool) -> Html:
     made = drawing.draw()
     if isinstance(made, Html):  # an animation: paper has the envelope of it beside
         return captioned_drawing(made, drawing.caption, printed=False)
-    return captioned_drawing(figure_svg(made, drawing.name, drawing.caption, on_paper=on_paper), drawing.caption)
+    drawn = figure_svg(made, drawing.name, drawing.caption, on_paper=on_paper, words=words)
+    return captioned_drawing(drawn, drawing.caption)
 
 
 def _check_counts(contents: Contents) -> tuple[Html, int]:

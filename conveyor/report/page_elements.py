@@ -56,6 +56,7 @@ h2 { font-size: 1.3rem; margin: 2.4rem 0 .7rem; padding-top: .5rem; border-top: 
   color: var(--accent); }
 h3 { font-size: 1.05rem; margin: 1.6rem 0 .4rem; }
 p, li, dd, td, th { overflow-wrap: anywhere; }
+html:not(:lang(en)) :is(p, li, dd, dt, td, th, caption) { hyphens: auto; }
 p { margin: .5rem 0; }
 a { color: var(--accent); }
 :focus-visible { outline: 3px solid var(--accent); outline-offset: 2px; }
@@ -234,9 +235,16 @@ def table_html(shown: Table, caption: str, system: System = "SI", *, kind: str =
                     scope="row",
                     class_=how,
                     data_label=_column_label(column, system) if j else None,
+                    translate="no" if column.verbatim else None,
                 )
                 if j < shown.named
-                else element("td", cell, class_=how, data_label=_column_label(column, system))
+                else element(
+                    "td",
+                    cell,
+                    class_=how,
+                    data_label=_column_label(column, system),
+                    translate="no" if column.verbatim else None,
+                )
                 for j, (column, cell, how) in enumerate(zip(shown.columns, cells, classes, strict=True))
             ),
         )

@@ -7,13 +7,15 @@ A page is made of a few elements of `conveyor.report.page_elements` alone; each 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from html.parser import HTMLParser
 from importlib.util import find_spec
 from itertools import groupby
 from pathlib import Path
+from shutil import copyfile
+from tempfile import TemporaryDirectory
 from typing import Final
 
 from conveyor.errors import InputError
@@ -23,11 +25,16 @@ from conveyor.report.matplotlib_settings import load_matplotlib
 from conveyor.report.page_elements import COLOURS
 from conveyor.report.table_model import Contents
 from conveyor.text.markup import Html
+from conveyor.text.printable import text_width
 
 _TYPST_FORMS: Final = Path(__file__).with_name("page.typ")
 _FONT: Final = "DejaVu Sans"  # comes with matplotlib; missing letters are from the fonts of the machine
 _PAPERS: Final = {"A4": "a4", "Letter": "us-letter"}
 _PAPER: Final = re.compile(r"@page { size: (\w+); }")
+_LANGUAGE: Final = re.compile(r'<html lang="(\w+)"')
+_CHINESE_FONTS: Final = re.compile(
+    r"CJK|\bSC\b|\bCN\b|SimSun|SimHei|YaHei|PingFang|Source Han|WenQuanYi|Heiti|Songti|KaiTi|FangSong"
+)
 _DRAWING: Final = re.compile(r"<svg\b.*?</svg>", re.DOTALL)
 _SVG_NAMESPACE: Final = "http://www.w3.org/2000/svg"
 _PAGE_WIDTH: Final = 521.0  # between the margins of A4 [pt]
@@ -144,18 +151,46 @@ def page_pdf(page: Html) -> bytes:
     Raises
     ------
     InputError
-        The package typst is not installed.
+        The package typst, or a font for the page's language, is not installed.
     """
     require_typst()
     import typst
 
-    fonts = Path(load_matplotlib().get_data_path()) / "fonts" / "ttf"
-    known = typst.Fonts(font_paths=sorted(fonts.glob("DejaVuSans*.ttf")))
-    return typst.compile(typst_source(page).encode(), format="pdf", font_paths=known)
+    with TemporaryDirectory() as folder:
+        copy_fonts(Path(folder))
+        known = typst.Fonts(font_paths=[folder])
+        further = _chinese_font(known.families()) if page_language(page) == "zh" else ""
+        return typst.compile(typst_source(page, further).encode(), format="pdf", font_paths=known)
 
 
-def typst_source(page: Html) -> str:
-    """Return a page as Typst source."""
+def copy_fonts(folder: Path) -> None:
+    """Copy the fonts of pages from matplotlib, not those beside them that draw missing letters as boxes.
+
+    Typst takes folders only.
+    """
+    for path in (Path(load_matplotlib().get_data_path()) / "fonts" / "ttf").glob("DejaVuSans*.ttf"):
+        copyfile(path, folder / path.name)
+
+
+def page_language(page: str) -> str:
+    """Language of a page."""
+    found = _LANGUAGE.search(page)
+    return found[1] if found else "en"
+
+
+def _chinese_font(families: Iterable[str]) -> str:
+    """Font of the machine with Chinese letters."""
+    found = next(filter(_CHINESE_FONTS.search, families), None)
+    if found is None:
+        raise InputError(
+            "PDF in Chinese needs a font with Chinese letters, and this machine has none (Noto Sans CJK SC, for "
+            "example); without it: the page (.html), which the browser prints, or the workbook (.xlsx)"
+        )
+    return found
+
+
+def typst_source(page: Html, further_font: str = "") -> str:
+    """Return a page as Typst source; a further font has the letters that the usual one has not."""
     drawings: list[str] = []
 
     def apart(found: re.Match[str]) -> str:
@@ -164,13 +199,14 @@ def typst_source(page: Html) -> str:
 
     reader = _PageReader()
     reader.feed(_DRAWING.sub(apart, page))
-    whole, paper = reader.open[0], _PAPER.search(page)
+    whole, paper, language = reader.open[0], _PAPER.search(page), page_language(page)
     said = {"title": whole.first("h1"), "kind": whole.first("p"), "foot": whole.first("footer")}
     given = [
         *(f'#let {name} = rgb("{value}")' for name, value in COLOURS.items()),
         *(f"#let page-{name} = {_typst_string(element.text)}" for name, element in said.items()),
         f'#set page(paper: "{_PAPERS[paper[1] if paper else "A4"]}")',
-        f'#set text(font: "{_FONT}")',
+        f"#set text(font: ({_typst_string(_FONT)}, {_typst_string(further_font or _FONT)}))",
+        f'#set text(lang: "{language}"{", hyphenate: true" if language != "en" else ""})',
     ]
     return "\n".join([*given, _TYPST_FORMS.read_text("utf-8"), _TypstWriter(drawings).flow(whole)])
 
@@ -284,11 +320,15 @@ class _ColumnNeed:
     @classmethod
     def of(cls, head: _Element, below: Sequence[_Element]) -> _ColumnNeed:
         """Need of a column: at least its longest word, short text or number, and a line of the names of rows."""
-        longest, heading = max((len(cell.text) for cell in below), default=0), _BOLD * len(head.text)
-        kept = [len(cell.text) for cell in below if cell.classes & {"n", "name"} or len(cell.text) <= _SHORT]
-        words = [min(len(word), _LONGEST) for cell in below for word in cell.text.split()]
+        longest, heading = max((text_width(cell.text) for cell in below), default=0), _BOLD * text_width(head.text)
+        kept = [
+            text_width(cell.text) for cell in below if cell.classes & {"n", "name"} or text_width(cell.text) <= _SHORT
+        ]
+        words = [min(text_width(word), _LONGEST) for cell in below for word in cell.text.split()]
         names = [min(longest, _NAME)] if any(cell.tag == "th" for cell in below) else []
-        least = max([*kept, *words, *names, *(_BOLD * len(word) for word in head.text.split())], default=0)
+        least = max(
+            [*kept, *words, *names, *(_BOLD * min(text_width(word), _LONGEST) for word in head.text.split())], default=0
+        )
         wanted = max(min(longest, _WANTED), heading / _HEAD_LINES, least)
         needs = max(longest, heading), wanted, least
         return cls(*(need + _GAP for need in needs))

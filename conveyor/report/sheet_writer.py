@@ -90,6 +90,8 @@ class SheetWriter:
         Sheet and place of every table of the workbook.
     live : dict
         Values of formulas, by sheet and cell.
+    name : str
+        Its name in English.
     """
 
     sheet: Worksheet
@@ -97,6 +99,7 @@ class SheetWriter:
     stem: str
     placed: dict[str, tuple[Worksheet, TablePlace]] = field(default_factory=dict)
     live: dict[tuple[str, str], float | str] = field(default_factory=dict)
+    name: str = ""
 
     def place(
         self, key: str, row: int, column: int = 1, *, heading: bool = True, widest: int = _NAME_CHARACTERS
@@ -191,7 +194,7 @@ class SheetWriter:
     @property
     def keys(self) -> tuple[str, ...]:
         """Keys of the tables of this sheet."""
-        return self.contents.keys_on(self.sheet.title)
+        return self.contents.keys_on(self.name)
 
     def rest(self, row: int = 1, *, widest: int = _NAME_CHARACTERS, but: Sequence[str] = ()) -> None:
         """Write the remaining tables of the sheet under one another."""

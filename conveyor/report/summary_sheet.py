@@ -30,7 +30,7 @@ from conveyor.report.cells import (
 )
 from conveyor.report.sheet_paper import columns_width, page_room, rows_height
 from conveyor.report.sheet_writer import SheetWriter, TablePlace
-from conveyor.report.table_model import CHECKS_AND_NOTES, Figure, ReportHead
+from conveyor.report.table_model import Figure, ReportHead
 from conveyor.units.presentation import DIGITS, Unit, display_unit, label_for_people
 
 _COLUMNS: Final = "ABCDEFG"
@@ -50,8 +50,8 @@ _ROW_HEIGHT: Final = 15.0  # [pt]
 _GAP_HEIGHT: Final = 7.0  # [pt]
 
 
-def write_summary(page: SheetWriter, places: Mapping[str, tuple[Worksheet, TablePlace]]) -> None:
-    """Write the first page; `places` has the tables of the other sheets, for the charts."""
+def write_summary(page: SheetWriter, places: Mapping[str, tuple[Worksheet, TablePlace]], checks: str) -> None:
+    """Write the first page; `places` has the tables of the other sheets, for the charts; `checks` is their sheet."""
     sheet = page.sheet
     for letter, width in _WIDTHS.items():
         sheet.column_dimensions[letter].width = width
@@ -61,7 +61,7 @@ def write_summary(page: SheetWriter, places: Mapping[str, tuple[Worksheet, Table
     row = _key_figures(page, row)
     row = _summary_charts(page, row, places)
     first = row
-    row = _check_rows(page, row)
+    row = _check_rows(page, row, checks)
     hidden = [each.title for each in sheet.parent or () if each.sheet_state == "hidden"]
     if hidden:
         write_value(sheet.cell(row, 1), f"Hidden data sheets (right-click a tab, Unhide): {', '.join(hidden)}", GREY)
@@ -204,7 +204,7 @@ def _summary_charts(page: SheetWriter, row: int, places: Mapping[str, tuple[Work
     return _blank_row(page.sheet, row + (_CHART_ROWS if made else 0))
 
 
-def _check_rows(page: SheetWriter, row: int) -> int:
+def _check_rows(page: SheetWriter, row: int, checks_sheet: str) -> int:
     """Write the governing checks and all failures, with links to the rest; return the next row."""
     sheet, checks, system = page.sheet, page.contents["checks"].rows, page.contents.system
     count = Counter(check.verdict for check in checks)
@@ -233,13 +233,13 @@ def _check_rows(page: SheetWriter, row: int) -> int:
         _style_check_row(sheet, i, VERDICT_STYLES[check.verdict])
     if len(shown) < len(checks):
         i += 1
-        words = f"of every criterion the least margin; all {len(checks)} checks: see {CHECKS_AND_NOTES}"
+        words = f"of every criterion the least margin; all {len(checks)} checks: see {checks_sheet}"
         write_value(sheet.cell(i, 1), words, GREY)
     kinds = ("warning", "assumption")
     said = ", ".join(f"{len(page.contents.lines(kind))} {kind}s" for kind in kinds)
     link = sheet.cell(i + 1, 1)
-    write_value(link, f"{said}: see {CHECKS_AND_NOTES}")
-    link.hyperlink = Hyperlink(ref=link.coordinate, location=f"'{CHECKS_AND_NOTES}'!A1")
+    write_value(link, f"{said}: see {checks_sheet}")
+    link.hyperlink = Hyperlink(ref=link.coordinate, location=f"'{checks_sheet}'!A1")
     link.font = LINK
     return i + 2
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
 from conveyor.report.plots import curve_colour, drawing_settings
+from conveyor.report.translated_page import TRANSLATED_FIGURE, translate_figure
 from conveyor.text.markup import Html, element
 from conveyor.text.printable import escape_controls
 from conveyor.units.sentences import SUPERSCRIPTS
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.backends.backend_agg import RendererAgg
     from matplotlib.figure import Figure
+
+    from conveyor.languages.translator import Translator
 
 _SVG_NAMESPACE = "{http://www.w3.org/2000/svg}"
 _LINK_ATTRIBUTE = "{http://www.w3.org/1999/xlink}href"
@@ -49,7 +52,9 @@ _SIMPLIFY_THRESHOLD = 0.5
 """Deviation below which a point of a line is left out [px]."""
 
 
-def figure_svg(figure: Figure, name: str, label: str, *, on_paper: bool = False) -> Html:
+def figure_svg(
+    figure: Figure, name: str, label: str, *, on_paper: bool = False, words: Translator | None = None
+) -> Html:
     """Draw a figure as an SVG element.
 
     Parameters
@@ -62,11 +67,15 @@ def figure_svg(figure: Figure, name: str, label: str, *, on_paper: bool = False)
         Text alternative.
     on_paper : bool
         True for half the width of a printed page, where its letters are then of 8 pt.
+    words : Translator, optional
+        Translates its words.
     """
     with drawing_settings(letters="none"):
+        if words is not None:
+            translate_figure(figure, words)
         restyle_figure(figure, on_paper=on_paper)
         drawn = _svg_bytes(figure)
-    return Html(_clean_svg(escape_controls(drawn.decode()), name, label))
+    return Html(_clean_svg(escape_controls(drawn.decode()), name, label, translated=words is not None))
 
 
 def restyle_figure(figure: Figure, *, on_paper: bool = False) -> None:
@@ -215,8 +224,8 @@ def _svg_bytes(figure: Figure) -> bytes:
     return content.getvalue()
 
 
-def _clean_svg(drawn: str, name: str, label: str) -> str:
-    root = ET.fromstring(drawn.encode())  # noqa: S314 drawn here
+def _clean_svg(svg: str, name: str, label: str, *, translated: bool) -> str:
+    root = ET.fromstring(svg.encode())  # noqa: S314 drawn here
     used = {_link_target(node) for node in root.iter()} | {
         mark for node in root.iter() for value in node.attrib.values() for mark in _REFERENCE.findall(value)
     }
@@ -239,6 +248,8 @@ def _clean_svg(drawn: str, name: str, label: str) -> str:
         root.attrib.pop(key, None)
     root.set("role", "img")
     root.set("aria-label", label)
+    if translated:
+        root.set(TRANSLATED_FIGURE, "")
     _inline_groups(root)
     return ET.tostring(root, encoding="unicode")
 

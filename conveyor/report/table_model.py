@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, Self, TypeAlias
 
 import numpy as np
 
+from conveyor.languages.catalogue import report_translator
+from conveyor.languages.translator import Translator
 from conveyor.models.report import Paper
 from conveyor.units import System
 from conveyor.units.presentation import Unit, column_name, display_unit, label_for_people
@@ -128,6 +130,8 @@ class Column:
         that in the fourth.
     key : str
         Stable name; by default made of the label.
+    verbatim : bool
+        Whether its texts are of a spec or a file and the same in every language.
     """
 
     label: str
@@ -141,6 +145,7 @@ class Column:
     asked: bool = False
     formula: Callable[[Any], str] | None = None
     key: str = ""
+    verbatim: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "key", self.key or slug(self.label))
@@ -412,6 +417,10 @@ class ReportHead:
         Paper size.
     facts : tuple of (str, str)
         Facts below the title.
+    language : str
+        Language of the texts of page and workbook.
+    names : frozenset of str
+        Names and texts that the user gave, the same in every language.
     """
 
     title: str
@@ -420,6 +429,8 @@ class ReportHead:
     fingerprint: str
     paper: Paper
     facts: tuple[tuple[str, str], ...] = ()
+    language: str = "en"
+    names: frozenset[str] = frozenset()
 
     @property
     def document_line(self) -> str:
@@ -470,6 +481,15 @@ class Contents:
     def parts(self) -> tuple[Table, ...]:
         """Tables in order."""
         return tuple(self.by_key.values())
+
+    @cached_property
+    def translator(self) -> Translator | None:
+        """Translator of its texts; None in English."""
+        return report_translator(self.document.language, self.document.names)
+
+    def in_language(self, language: str) -> Contents:
+        """The same contents for a report in a language."""
+        return replace(self, document=replace(self.document, language=language))
 
     def __getitem__(self, key: str) -> Table:
         return self.by_key[key]

@@ -244,6 +244,19 @@ def _figure_units(kind: str, system: System) -> tuple[Unit, Unit | None, Unit | 
     return own, large, small
 
 
+@cache
+def report_units() -> frozenset[str]:
+    """Return the signs and labels of all units of reports.
+
+    Examples
+    --------
+    >>> {"kW", "lbf", "m/s²", "°C"} <= report_units()
+    True
+    """
+    shown = (unit for kind in KINDS for system in SYSTEMS for unit in _figure_units(kind, system) if unit is not None)
+    return frozenset(name for unit in shown for name in (unit.sign, unit.label) if name)
+
+
 def format_figure(
     value: float | Quantity, kind: str, system: System = "SI", *, digits: int | None = None, as_input: bool = False
 ) -> str:

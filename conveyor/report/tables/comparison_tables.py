@@ -84,7 +84,7 @@ def comparison_contents(comparison: CalculatedComparison, system: System) -> Con
             for name in ("temperature", "speed")
         ),
     )
-    about = report_head(comparison.conveyor, "Comparison of belt covers", system, facts)
+    about = report_head(comparison.conveyor, "Comparison of belt covers", system, facts, named=comparison.compounds)
     drawn = tuple(comparison_drawings(comparison, system))
     return Contents.of(about, parts, system, drawings=drawn, page=PARTS, layout="comparison")
 

@@ -63,7 +63,7 @@ def study_contents(study: StudySummary, system: System) -> Contents:
             "; ".join(_limit_text(study.figures[name].label, one) for name, one in study.plan.limits.items()) or "none",
         ),
     )
-    about = report_head(study.base, "Study of designs", system, facts)
+    about = report_head(study.base, "Study of designs", system, facts, named=(study.plan,))
     drawn: tuple[Drawing, ...] = ()
     if len(study.values):
         every = DesignPlots(study, system).every

@@ -160,7 +160,7 @@ def _belt_utilisation(governing: Sequence[Check], system: System) -> Iterator[Go
     share, check = highest_use(governing, BELT_STRENGTH_CRITERIA)
     if share is not None and check is not None:
         case = AS_GIVEN if check.case is None else check.case.text(system)
-        words = f"{check.subject.text(system)} {check.found.text(system)}, {check.asked.text(system)}; {case}"
+        words = f"{check.subject.text(system)}: {check.found.text(system)}, {check.asked.text(system)}; {case}"
         yield GoverningRow("belt utilisation", percent(share), words)
 
 

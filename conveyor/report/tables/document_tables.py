@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from datetime import date
 from typing import Any, Final
 
 from conveyor.files.output_marks import package_version
 from conveyor.models import Conveyor
 from conveyor.models.calculation_methods import FACTOR_METHODS, METHOD_NAMES
+from conveyor.models.given_names import given_names
 from conveyor.report.table_model import Column, Figure, PagePlacement, ReportHead, Table, figure_table
 from conveyor.report.tables.inputs import InputRow, group_inputs
 from conveyor.spec import fingerprint
@@ -19,12 +20,21 @@ from conveyor.units.presentation import display_unit, format_figure
 _PACKAGES: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
-def report_head(conveyor: Conveyor, kind: str, system: System, facts: tuple[tuple[str, str], ...] = ()) -> ReportHead:
-    """Head of a report of a conveyor."""
+def report_head(
+    conveyor: Conveyor,
+    kind: str,
+    system: System,
+    facts: tuple[tuple[str, str], ...] = (),
+    *,
+    named: Iterable[object] = (),
+) -> ReportHead:
+    """Head of a report of a conveyor; `named` are further models with names that the user gave."""
     report = conveyor.report
     names = ("project", "client", "number", "revision", "engineer", "reviewer", "approval")
     said = {name: value for name in names if (value := getattr(report, name)) is not None}
-    return ReportHead(conveyor.name, kind, said, fingerprint(conveyor), report.sheet(system), facts)
+    names_given = given_names((conveyor, *named))
+    paper = report.sheet(system)
+    return ReportHead(conveyor.name, kind, said, fingerprint(conveyor), paper, facts, report.language, names_given)
 
 
 def identity_table(conveyor: Conveyor, system: System) -> Table:
@@ -80,10 +90,10 @@ def _method_text(conveyor: Conveyor) -> str:
 def input_table(entries: tuple[InputRow, ...]) -> Table:
     """Every field: as entered, in SI, and its origin: spec, library or default."""
     columns = (
-        Column("field", "text", "0"),
-        Column("as entered", "text", "1"),
+        Column("field", "text", "0", verbatim=True),
+        Column("as entered", "text", "1", verbatim=True),
         Column("SI value", "number", "2"),
-        Column("SI unit", "text", "3"),
+        Column("SI unit", "text", "3", verbatim=True),
         Column("given by", "text", "4"),
     )
     caption = "Every field: as entered, in SI, and whether the spec, a library or a default gave it"
@@ -93,7 +103,7 @@ def input_table(entries: tuple[InputRow, ...]) -> Table:
 
 def grouped_input_table(entries: Sequence[InputRow], system: System, *, defaults: bool) -> Table:
     """Inputs grouped by part: those given, or those left to defaults."""
-    columns = (Column("part", "text", "0"), Column("values", "text", "1"))
+    columns = (Column("part", "text", "0", verbatim=True), Column("values", "text", "1", verbatim=True))
     key, heading = ("inputs_default", "Inputs left to defaults") if defaults else ("inputs_given", "Inputs given")
     chosen = [row for row in entries if (row[-1] == "default") is defaults]
     return Table(key, "Given", heading, columns, group_inputs(chosen, system, alike=defaults), "inputs")
@@ -107,6 +117,6 @@ def provenance_table(spec: str, sheet: str = "Checks and notes") -> Table:
         "python": platform.python_version(),
         **{name: package_version(name) for name in _PACKAGES},
     }
-    columns = (Column("made by", "text", "0"), Column("version", "text", "1"))
+    columns = (Column("made by", "text", "0", verbatim=True), Column("version", "text", "1", verbatim=True))
     page = (PagePlacement("provenance", "What made these figures", printed=False),)
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)

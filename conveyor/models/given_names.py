@@ -1,0 +1,46 @@
+"""Names and free text that a user gave in a spec: the same in every language of a report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any, get_args, get_origin
+
+from conveyor.models.base import Model
+from conveyor.units.sentences import degree_signs
+
+
+def given_names(value: object) -> frozenset[str]:
+    """Return the free texts of models, of all that they hold, and their keys of mappings; words of a choice are none.
+
+    Examples
+    --------
+    >>> from conveyor.models.report import Report
+    >>> sorted(given_names(Report(client="Example AG", units="US")))
+    ['Example AG']
+    """
+    return frozenset(_free_texts(value))
+
+
+def _free_texts(value: object) -> Iterator[str]:
+    if isinstance(value, Model):
+        fields = type(value).model_fields
+        for name in value.model_fields_set & fields.keys():
+            held = getattr(value, name)
+            if _is_free(fields[name].annotation):
+                texts = (held,) if isinstance(held, str) else held if isinstance(held, tuple) else ()
+                for text in texts:
+                    if isinstance(text, str):
+                        yield text
+                        yield degree_signs(text)
+            yield from _free_texts(held)
+    elif isinstance(value, tuple | list):
+        for item in value:
+            yield from _free_texts(item)
+
+
+def _is_free(annotation: Any) -> bool:
+    """True for a type that has any text, not only the words of a choice."""
+    if annotation is str:
+        return True
+    parts = get_args(annotation)[:1] if get_origin(annotation) is Annotated else get_args(annotation)
+    return any(_is_free(part) for part in parts if isinstance(part, type) or get_args(part))

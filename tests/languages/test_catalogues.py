@@ -1,0 +1,115 @@
+"""Catalogues: one text for every text in every language, with the same gaps; names of sheets that a workbook takes."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from conveyor.languages.catalogue import LANGUAGES, NUMBER_FORMATS, TRANSLATED, load_catalogue, report_translator
+from conveyor.languages.translator import GAP, NumberFormat, Translator
+from conveyor.models.report import Report
+from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, SUMMARY_SHEET, VERIFICATION_SHEETS
+
+WORDS = re.compile(r"[A-Za-z]{4,}")
+SAME = {"de": 0.05, "es": 0.08, "pt": 0.08, "zh": 0.04}
+"""Share of texts that a language may write as English does: names, symbols, words of the trade."""
+
+
+@pytest.mark.parametrize("language", TRANSLATED)
+def test_every_text_is_translated_with_its_gaps(language):
+    entries = load_catalogue(language)
+    assert entries.keys() == load_catalogue(TRANSLATED[0]).keys()
+    for english, translation in entries.items():
+        assert translation.strip(), english
+        gaps, taken = GAP.findall(english), GAP.findall(translation)
+        numbers = sorted(int(number) if number else i for i, number in enumerate(taken))
+        assert numbers == list(range(len(gaps))), (english, translation)
+        assert not any(gaps), english
+        translation.format(*range(len(gaps)))
+
+
+@pytest.mark.parametrize("language", TRANSLATED)
+def test_hardly_any_text_is_left_in_english(language):
+    entries = {english: text for english, text in load_catalogue(language).items() if WORDS.search(english)}
+    same = [english for english, text in entries.items() if text == english]
+    assert len(same) < SAME[language] * len(entries), same
+
+
+@pytest.mark.parametrize("language", TRANSLATED)
+def test_sheets_have_names_that_a_workbook_takes(language):
+    translator = report_translator(language)
+    for of in ((SUMMARY_SHEET, *SHEETS), COMPARISON_SHEETS, VERIFICATION_SHEETS):
+        names = [translator.heading(name) for name in of]
+        assert len(set(names)) == len(names)
+        assert not any(re.search(r"[\[\]:*?/\\']", name) or len(name) > 31 for name in names), names
+        assert translator.missing == {}
+
+
+def test_languages_of_the_spec_are_those_with_a_catalogue():
+    assert Report().language == "en"
+    for language in LANGUAGES:
+        assert Report(language=language).language == language
+    assert set(NUMBER_FORMATS) == set(TRANSLATED) == set(LANGUAGES) - {"en"}
+    with pytest.raises(KeyError):
+        load_catalogue("en")
+
+
+@pytest.mark.parametrize(
+    ("language", "written"),
+    [("de", "1.250,5 kW"), ("es", "1250,5 kW"), ("pt", "1.250,5 kW"), ("zh", "1,250.5 kW")],
+)
+def test_numbers_are_written_as_the_language_has_them(language, written):
+    assert report_translator(language).text("1,250.5 kW") == written
+
+
+def test_the_inch_is_no_word():
+    translator = report_translator("es")
+    assert (translator.text("in"), translator.text("2.5 in"), translator.heading("in")) == ("in", "2,5 in", "en")
+
+
+def test_large_numbers_of_spanish_are_grouped():
+    assert report_translator("es").text("12,500 kW") == "12.500 kW"
+
+
+@pytest.mark.parametrize(
+    "same", ["2026-11-28", "0.1.0", "ISO 5048, F_St", "DIN 22101:2011, 5.1.2", "belt.speed", "6305"]
+)
+def test_dates_versions_clauses_and_fields_stay(same):
+    translator = report_translator("de")
+    assert (translator.text(same), translator.missing) == (same, {})
+
+
+def test_longer_sentences_go_first_and_parts_are_translated():
+    entries = {
+        "drive {}": "Antrieb {}",
+        "drive force": "Antriebskraft",
+        "worst for {}": "ungünstigst für {}",
+        "full": "voll",
+    }
+    translator = Translator("de", entries, NumberFormat(",", "."), frozenset({"full"}))
+    assert translator.text("worst for drive force, 2.5 kN") == "ungünstigst für Antriebskraft, 2,5 kN"
+    assert translator.text("drive full") == "Antrieb full"
+    assert translator.heading("full") == "voll"
+    assert translator.text("Drive force") == "Antriebskraft"
+    assert translator.text("  drive force\n") == "  Antriebskraft\n"
+
+
+def test_what_has_no_translation_is_named_and_stays():
+    translator = Translator("de", {"belt": "Gurt"}, NumberFormat(",", "."))
+    assert translator.text("belt; something else") == "Gurt; something else"
+    assert list(translator.missing) == ["something else"]
+
+
+def test_a_translation_is_not_translated_again():
+    translator = Translator("de", {"name": "Rest", "Rest": "falsch"})
+    assert translator.text(translator.text("name")) == "Rest"
+    assert translator.text(translator.heading("name") + " [kN]") == "Rest [kN]"
+
+
+def test_names_in_quotes_and_paths_are_not_translated():
+    translator = Translator(
+        "de", {'"{}" of {}': '"{}" von {}', "idlers.{}: {}": "idlers.{}: {}", "return": "Untertrum"}
+    )
+    assert translator.text('"return" of return') == '"return" von Untertrum'
+    assert translator.text("idlers.return: return") == "idlers.return: Untertrum"

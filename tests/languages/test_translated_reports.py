@@ -1,0 +1,174 @@
+"""Reports in every language: nothing of the report's own words is left in English, nothing of the user's is touched."""
+
+from __future__ import annotations
+
+import ast
+import functools
+import re
+from pathlib import Path
+
+import openpyxl
+import pytest
+
+from conveyor import analyse, load
+from conveyor.errors import InputError
+from conveyor.fitting.fit_verdict import GLOSSARY
+from conveyor.languages.catalogue import TRANSLATED, report_translator
+from conveyor.languages.translator import GAP
+from conveyor.report import excel, html, pdf
+from conveyor.report.tables.analysis_contents import analysis_contents
+from conveyor.report.translated_page import translate_page
+from conveyor.report.translated_workbook import translate_contents
+from conveyor.results.analysis import studies
+
+ROOT = Path(__file__).parents[2]
+SPECS = ROOT / "examples" / "specs"
+EVERY = sorted(path.stem for path in SPECS.glob("*.yaml"))
+
+
+@functools.cache
+def contents(name, system="SI"):
+    line = load(SPECS / f"{name}.yaml")
+    result = analyse(line)
+    return analysis_contents(result.assess(studies(line, result)).in_units(system))
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_tables_of_every_example_are_translated(name):
+    """In every language: what is missing in one is missing in all."""
+    english = contents(name, "US" if name.endswith("_us") else "SI")
+    for language in TRANSLATED:
+        report = english.in_language(language)
+        words = report.translator
+        translate_contents(report, words)
+        for remark in report["remarks"].rows:
+            words.text(remark.text)
+        assert words.missing == {}, language
+
+
+def test_page_and_workbook_are_translated_whole(tmp_path):
+    german = contents("overland_10km").in_language("de")
+    page = html.build_page(german)
+    assert german.translator.missing == {}
+    assert '<html lang="de">' in page
+    assert "Ausreichend wie vorgegeben" in page
+    assert "5,5 m/s" in page
+    assert "5.5 m/s" not in re.sub(r'<t[dh][^>]*translate="no".*?</t[dh]>', "", page)  # the spec's own stays
+    path = excel.write_workbook(german, tmp_path / "german.xlsx")
+    assert german.translator.missing == {}
+    book = openpyxl.load_workbook(path)
+    assert "Zusammenfassung" in book.sheetnames
+    assert {"table_checks", "what_if_motor_reserve"} <= set(book.defined_names)  # links hold in every language
+    assert book.defined_names["table_checks"].attr_text.startswith("'Prüfungen und Hinweise'!")
+    link = next(cell for row in book["Zusammenfassung"] for cell in row if cell.hyperlink)
+    assert link.hyperlink.location == "'Prüfungen und Hinweise'!A1"
+
+
+def test_what_the_user_named_stays(tmp_path):
+    spec = (SPECS / "slider.yaml").read_text(encoding="utf-8").replace("name: incline", "name: drive")
+    path = tmp_path / "named.yaml"
+    path.write_text(spec + "report: {language: es, client: full}\n", encoding="utf-8")
+    line = load(path)
+    report = analysis_contents(analyse(line).assess(studies(line, analyse(line))).in_units("SI"))
+    page = html.build_page(report)
+    assert '<html lang="es">' in page
+    assert ">full<" in page
+    assert ">drive, carga<" in page
+    assert "carga" in page
+
+
+def test_the_language_changes_no_figure_and_no_fingerprint():
+    line = load(SPECS / "slider.yaml")
+    spanish = line.replace(report=line.report.replace(language="es"))
+    one, other = (
+        analysis_contents(analyse(each).assess(studies(each, analyse(each))).in_units("SI")) for each in (line, spanish)
+    )
+    assert one.document.fingerprint == other.document.fingerprint
+    assert {key: part.records() for key, part in one.by_key.items() if not key.startswith("inputs")} == {
+        key: part.records() for key, part in other.by_key.items() if not key.startswith("inputs")
+    }
+
+
+def test_an_unknown_language_is_refused_with_the_known_ones(tmp_path):
+    path = tmp_path / "french.yaml"
+    path.write_text((SPECS / "slider.yaml").read_text(encoding="utf-8") + "report: {language: fr}\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"report\.language: got \"fr\", allowed: 'en', 'de', 'es', 'pt' or 'zh'"):
+        load(path)
+
+
+def _messages(folder):
+    """Sentences of calls of `message` and of `why` in a folder's modules, with {} where something is put in."""
+    for path in sorted((ROOT / "conveyor" / folder).rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not isinstance(node, ast.Call):
+                continue
+            if isinstance(node.func, ast.Name) and node.func.id == "message" and node.args:
+                yield path.name, _sentence(node.args[0])
+            for keyword in node.keywords:
+                if keyword.arg in {"why", "missing", "source"}:
+                    yield path.name, _sentence(keyword.value)
+
+
+def _sentence(node):
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return node.value.replace("{calculated}", "{}").replace("{required}", "{}")
+    if isinstance(node, ast.JoinedStr):
+        parts = [part.value if isinstance(part, ast.Constant) else "\0" for part in node.values]
+        return re.sub(r"\{(?:calculated|required)?\}", "{}", "".join(parts)).replace("\0", "{}")
+    return ""
+
+
+@pytest.mark.parametrize("folder", ["checks", "remarks", "dynamics"])
+def test_every_sentence_of_checks_and_remarks_is_translated(folder):
+    """Whatever fills its gaps; also those that no example says."""
+    words, found = report_translator("de"), 0
+    for name, sentence in _messages(folder):
+        if not re.search(r"[a-z]{3}", GAP.sub("", sentence)) or name in {"scenario_sizing.py", "machines.py"}:
+            continue
+        found += 1
+        words.text(GAP.sub("7", sentence.replace("{{", "{").replace("}}", "}")))
+    assert found > {"checks": 100, "remarks": 40, "dynamics": 10}[folder]
+    assert words.missing == {}
+
+
+def test_glossary_of_fits_is_translated():
+    words = report_translator("pt")
+    for pair in GLOSSARY:
+        for text in pair:
+            words.text(text)
+    assert words.missing == {}
+
+
+def test_marked_elements_and_styles_stay():
+    words = report_translator("de")
+    page = (
+        '<html lang="en"><style>p > a { drive: 0 }</style><td translate="no" data-label="drive">drive</td>'
+        '<p title="drive">drive<br>&lt; 1.5 kN</p></html>'
+    )
+    assert translate_page(page, words) == (
+        '<html lang="de"><style>p > a { drive: 0 }</style><td translate="no" data-label="Antrieb">drive</td>'
+        '<p title="Antrieb">Antrieb<br>&lt; 1,5 kN</p></html>'
+    )
+
+
+def test_pdf_has_the_language_and_its_hyphens():
+    page = html.build_page(contents("slider").in_language("pt"), on_paper=True)
+    assert '#set text(lang: "pt", hyphenate: true)' in pdf.typst_source(page)
+    assert pdf.page_pdf(page).startswith(b"%PDF")
+
+
+def test_pdf_in_chinese_needs_a_font_with_its_letters(monkeypatch):
+    page = html.build_page(contents("slider").in_language("zh"), on_paper=True)
+    typst = pytest.importorskip("typst")
+    known = typst.Fonts(include_system_fonts=False)
+    monkeypatch.setattr(typst, "Fonts", lambda **_: known)
+    with pytest.raises(InputError, match="PDF in Chinese needs a font with Chinese letters"):
+        pdf.page_pdf(page)
+    assert pdf._chinese_font(["DejaVu Sans", "Noto Sans CJK SC"]) == "Noto Sans CJK SC"
+
+
+def test_fonts_of_pdf_come_with_matplotlib(tmp_path):
+    """Also where the machine has none of them."""
+    typst = pytest.importorskip("typst")
+    pdf.copy_fonts(tmp_path)
+    assert "DejaVu Sans" in typst.Fonts(include_system_fonts=False, font_paths=[tmp_path]).families()
