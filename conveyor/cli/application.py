@@ -160,7 +160,7 @@ UnitsOption = Annotated[
 LanguageOption = Annotated[
     ReportLanguage | None,
     option(
-        "Language of page, PDF and workbook; else report.language of the spec. Tables as files and JSON are English.",
+        "Language of page, PDF and workbook; else report.language of the spec. Other files and JSON are English.",
         None,
         "--language",
         show_default=False,

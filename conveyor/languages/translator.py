@@ -68,6 +68,16 @@ class NumberFormat:
         """
         return words if self == _ENGLISH else _LONE_NUMBER.sub(self._number, words)
 
+    def read(self, words: str) -> str:
+        """Write a figure of the language as English does.
+
+        Examples
+        --------
+        >>> NumberFormat(",", ".").read("1.250,5 N/mm")
+        '1,250.5 N/mm'
+        """
+        return words if self == _ENGLISH else words.translate(str.maketrans(self.group + self.decimal, ",."))
+
     def _number(self, found: re.Match[str]) -> str:
         whole, point, rest = found[0].partition(".")
         digits = sum(letter.isdigit() for letter in whole)
@@ -93,9 +103,18 @@ class _Sentence:
     bounded: tuple[bool, ...]
 
 
+def _literal_pieces(words: str) -> list[str]:
+    """Text before, between and behind the gaps of a sentence."""
+    return [piece.replace("{{", "{").replace("}}", "}") for piece in GAP.split(words)[::2]]
+
+
+def gap_pattern(words: str) -> re.Pattern[str]:
+    """Return the pattern of a sentence; its groups are what fills the gaps."""
+    return re.compile("(.*?)".join(map(re.escape, _literal_pieces(words))), re.DOTALL)
+
+
 def _make_sentence(english: str, translation: str) -> _Sentence:
-    pieces = [piece.replace("{{", "{").replace("}}", "}") for piece in GAP.split(english)[::2]]
-    pattern = "(.*?)".join(map(re.escape, pieces))
+    pieces = _literal_pieces(english)
     letters = sum(letter.isalpha() for piece in pieces for letter in piece)
     quoted = tuple(
         (one.endswith('"') and next_.startswith('"')) or one.endswith(".") or _PATH_END.match(next_) is not None
@@ -106,7 +125,7 @@ def _make_sentence(english: str, translation: str) -> _Sentence:
         marks = one.endswith((", ", ": ", "; ", "(", '"')) or next_.startswith((",", ":", ";", ")", '"'))
         bounded.append(letters >= _SHORT or marks or (one == "" and bounded[-1:] == [True]))
     longest = max(pieces, key=len)
-    return _Sentence(re.compile(pattern, re.DOTALL), translation, longest, letters, quoted, tuple(bounded))
+    return _Sentence(gap_pattern(english), translation, longest, letters, quoted, tuple(bounded))
 
 
 @dataclass

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -122,13 +122,13 @@ def measured_rows(grid: TextGrid, kind: TableKind) -> tuple[MeasuredRow, ...]:
     return tuple(_measured_row(grid, columns, row, width=len(head.cells), mark=mark, kind=kind) for row in rows)
 
 
-def read_grid(path: str | Path, kind: TableKind, *, form: str = "") -> TextGrid:
-    """Grid of a text or of the one filled sheet of a workbook; of a form the sheet of that name."""
+def read_grid(path: str | Path, kind: TableKind, *, form: Collection[str] = ()) -> TextGrid:
+    """Grid of a text or of the one filled sheet of a workbook; of a form the sheet of one of its names."""
     path = Path(path)
     data = file_content(path, largest=LARGEST_FILE, expected=kind.what)
     if data.startswith(MAGIC):
         filled = [grid for grid in workbook_grids(data, path.name) if grid.lines]
-        filled = [grid for grid in filled if grid.sheet == form] or filled
+        filled = [grid for grid in filled if grid.sheet in form] or filled
         if len(filled) != 1:
             raise InputError(f"{path}: {len(filled)} sheets hold cells; keep the {kind.one}s on one, and save it alone")
         return filled[0]

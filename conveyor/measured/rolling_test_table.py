@@ -10,6 +10,7 @@ from typing import Any, Final
 
 from conveyor.errors import InputError
 from conveyor.laboratory.cell_grid import TextGrid, TextLine
+from conveyor.languages.original_text import every_translation, original_header
 from conveyor.measured.measurement_table import (
     ColumnMeaning,
     MeasuredRow,
@@ -48,6 +49,8 @@ _TEST_TABLE: Final = TableKind(
 FORM_SHEET: Final = "N per width"
 """Sheet name of the test form for belt makers (`conveyor verify-sheet`)."""
 _LOAD_HEADER: Final = re.compile(r"at (\S+) (\S+), ours \[.+\]")
+_FORM_HEADERS: Final = ("compound", "cover", "roll", "belt speed", "temperature", "maker", "at {}, ours")
+"""Headers of the form; its reports are in any language."""
 _FORM_COLUMNS: Final = {
     "cover": "cover thickness",
     "roll": "roll diameter",
@@ -94,12 +97,15 @@ def read_rolling_tests(path: str | Path, source: str | None = None) -> tuple[Rol
 
 def _test_rows(path: str | Path) -> Iterator[MeasuredRow]:
     """Rows of a table, or of a filled-in form: at every line load those with a figure of the maker."""
-    grid = read_grid(path, _TEST_TABLE, form=FORM_SHEET)
-    start = next((k for k, line in enumerate(grid.lines) if line.cells[0] == "compound"), None)
-    if grid.sheet != FORM_SHEET or start is None:
+    titles = every_translation(FORM_SHEET)
+    grid = read_grid(path, _TEST_TABLE, form=titles)
+    first = every_translation("compound")
+    start = next((k for k, line in enumerate(grid.lines) if line.cells[0] in first), None)
+    if grid.sheet not in titles or start is None:
         yield from measured_rows(grid, _TEST_TABLE)
         return
     head, lines = grid.lines[start], grid.lines[start + 1 :]
+    head = head._replace(cells=tuple(original_header(name, _FORM_HEADERS) for name in head.cells))
     pairs = _maker_columns(grid, head)
     given = {at: [line for line in lines if any(line.cells[at : at + 1])] for at in pairs}
     belts: dict[str, int] = {}

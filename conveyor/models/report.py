@@ -32,7 +32,7 @@ class Report(Model):
     units: System = "SI"
     """System of units of reports and refusals; with US motors are suggested of NEMA, pulleys of CEMA."""
     language: Language = "en"
-    """Language of page, PDF and workbook; tables as files, JSON and the terminal are English."""
+    """Language of page, PDF and workbook; tables and figures as files, JSON and the terminal are English."""
     paper: Paper | None = None
     """Paper that workbooks are set up for."""
 

@@ -13,6 +13,7 @@ import conveyor
 from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.indentation import RollContact, indentation_resistance
+from conveyor.languages.catalogue import TRANSLATED
 from conveyor.measured.rolling_test_table import read_rolling_tests
 from conveyor.report import excel, html
 from conveyor.report.cells import INPUT_FILL
@@ -116,6 +117,23 @@ def test_what_no_roll_has_is_refused(changed: dict[str, list[str]], said: str):
         conveyor.verify_sheet(["s100"], **ONE | changed)
     with pytest.raises(InputError, match="compounds: give at least one"):
         conveyor.verify_sheet([])
+
+
+@pytest.mark.parametrize("language", TRANSLATED)
+def test_a_sheet_in_any_language_is_read_as_tests(tmp_path: Path, language: str):
+    asked = {**ONE, "line_loads": ["1.5 N/mm", "4 N/mm"]}
+    contents = conveyor.verify_sheet(["s100"], **asked).contents("SI").in_language(language)
+    path = tmp_path / "sheet.xlsx"
+    path.write_bytes(excel.workbook_files(contents, path)[path])
+    book = openpyxl.load_workbook(path)
+    cells = book.worksheets[1]
+    assert cells.title != "N per width"
+    cells.cell(3, 7).value = 21.5
+    book.save(path)
+    (test,) = read_rolling_tests(path)
+    assert [si(load) for load in test.line_load] == pytest.approx([1.5e3])
+    assert [si(force) for force in test.resistance] == pytest.approx([21.5])
+    assert si(test.roll_diameter) == pytest.approx(0.219)
 
 
 @pytest.mark.parametrize("system", ["SI", "US"])
