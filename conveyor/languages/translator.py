@@ -30,7 +30,7 @@ _SAME: Final = re.compile(
     r"|(?:[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\])?)+)"  # a path of a field
     r"|(?:[A-Za-z0-9]+(?:_[A-Za-z0-9]+)+|[0-9a-f]{12,}|\"[^\"]*\")"  # a key, a fingerprint, a name in quotes
     r"|(?:[A-Z]{1,4}-?\d[\w/.-]*|\S+\.[a-z]{2,4}(?:[/:]\S*)?)"  # a part or belt of a series, a file or site
-    r"|(?:[A-Z]'{0,2}|[a-zA-Z](?:_\w+)?|T(?:[12e]|max|min)|tan δ|\(C-1\) F_H)"  # a symbol
+    r"|(?:[A-Z]'{0,2}|[a-zA-Z](?:_\w+)?|T(?:[12e]|max|min)|tan δ|\(C-1\) F_H|\|E\*\|/b_T)"  # a symbol
 )
 _WITH_UNIT: Final = re.compile(r"(.+) (\[[^][]+\]|T(?:[12e]|max|min))", re.DOTALL)
 """A label with its unit, or with its symbol in US reports."""
@@ -46,7 +46,7 @@ _LEAST_LETTERS: Final = 8
 def _figure_pattern() -> re.Pattern[str]:
     """Pattern of a number, with or without a unit of reports or a currency, and of a unit alone."""
     signs = "|".join(map(re.escape, sorted(report_units(), key=len, reverse=True)))
-    unit = rf"(?:{signs}|%|kWh|[A-Z]{{3}})(?:/(?:{signs}|kWh))?"
+    unit = rf"(?:{signs}|%|kWh|[kG]?Pa|[A-Z]{{3}})(?:/(?:{signs}|kWh))?"
     return re.compile(rf"(?:(?:[<>≤≥±~+] ?)?{_NUMBER}(?: ?{unit})?)|{unit}|\[[^][]+\]")
 
 
