@@ -20,6 +20,7 @@ import typer.core
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.files.compound_folders import compound_files
+from conveyor.languages import Language
 from conveyor.text.printable import escape_controls, escape_json_controls
 from conveyor.text.ranges import MOST_VALUES, range_values
 from conveyor.units.unit_systems import SYSTEMS
@@ -107,16 +108,6 @@ def _common_options(
     """Options that belong to no command."""
 
 
-class ReportLanguage(StrEnum):
-    """Languages of reports."""
-
-    ENGLISH = "en"
-    GERMAN = "de"
-    SPANISH = "es"
-    PORTUGUESE = "pt"
-    CHINESE = "zh"
-
-
 class ImageKind(StrEnum):
     """Formats of figures."""
 
@@ -158,7 +149,7 @@ UnitsOption = Annotated[
     ),
 ]
 LanguageOption = Annotated[
-    ReportLanguage | None,
+    Language | None,
     option(
         "Language of page, PDF and workbook; else report.language of the spec. Other files and JSON are English.",
         None,

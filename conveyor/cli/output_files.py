@@ -131,11 +131,12 @@ class Outputs:
     def write(
         self, contents: Contents, told: Progress | None = None, *, page: Callable[..., Html] | None = None
     ) -> None:
-        """Make the registered files of a report; a page of its own is built by `page`, called with `on_paper`."""
+        """Make the registered files of a report; its own page is built by `page`, called with `words`, `on_paper`."""
         from conveyor.report import html
 
-        contents = self.in_language(contents)
-        page = page or partial(html.build_page, contents)
+        if self._language is not None:
+            contents = contents.in_language(self._language)
+        page = partial(html.build_page, contents) if page is None else partial(page, words=contents.translator)
         for done, path in enumerate(self._reports):
             if told is not None:
                 told("writing", done, len(self._reports))
@@ -147,10 +148,6 @@ class Outputs:
             self.add("tables", folder, table_files.encode_tables(contents, folder, kind))
         if self._plots is not None:
             self.figures({drawing.name: drawing.draw() for drawing in contents.drawings}, *self._plots)
-
-    def in_language(self, contents: Contents) -> Contents:
-        """The contents in the language of the command."""
-        return contents if self._language is None else contents.in_language(self._language)
 
     def _write_report(self, contents: Contents, page: Callable[..., Html], path: Path) -> None:
         """Make the workbook, page or PDF of a report, by file ending."""

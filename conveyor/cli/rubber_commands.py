@@ -254,8 +254,8 @@ def _verdict_lines(
         raise InputError("-o .xlsx, .html, .pdf, --spec: a Prony table has no measurement to judge")
     if spec is not None:
         criteria = (*criteria, *coverage_criteria(rubber, load(spec)))
-    contents = to.in_language(fit_tables.fit_contents(rubber, criteria, said))
-    to.write(contents, page=partial(fit_page.build_page, rubber, criteria, said, words=contents.translator))
+    page = partial(fit_page.build_page, rubber, criteria, said)
+    to.write(fit_tables.fit_contents(rubber, criteria, said), page=page)
     return ["verdict", *(f"  {one.verdict:>11}  {one.line}" for one in criteria)]
 
 

@@ -49,7 +49,10 @@ def fit_contents(
         Table("glossary", "Glossary", "Glossary", plain, GLOSSARY),
         Table("provenance", "Read and done", "Made by", plain[1:], (("", output_marks.program_version()),)),
     )  # fmt: skip
-    given = given_names(fitted.compound) | {*about.values(), *fitted.metadata.values(), *fitted.files}
+
+    def given() -> frozenset[str]:
+        return given_names(fitted.compound) | {*about.values(), *fitted.metadata.values(), *fitted.files}
+
     head = ReportHead(fitted.compound.name, "Master curve of a rubber", about, "", paper, names=given)
     return Contents.of(head, parts, "SI")
 

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from functools import cache
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache, cached_property
 from importlib.resources import files
 from types import MappingProxyType
-from typing import Final, Literal, get_args
+from typing import Final
 
-from conveyor.languages.translator import NumberFormat, Translator
+from conveyor.languages import TRANSLATED
+from conveyor.languages.gapped_sentence import GAP, GappedSentence
+from conveyor.languages.number_format import ENGLISH_NUMBERS, NumberFormat
 
-Language = Literal["en", "de", "es", "pt", "zh"]
-"""English, German, Spanish, Portuguese, Chinese (ISO 639-1)."""
-LANGUAGES: Final[tuple[str, ...]] = get_args(Language)
-TRANSLATED: Final = LANGUAGES[1:]
-"""Languages with a catalogue; the texts arise in English."""
 NUMBER_FORMATS: Final[Mapping[str, NumberFormat]] = MappingProxyType({
     "de": NumberFormat(",", "."),
     "es": NumberFormat(",", ".", 5),
@@ -24,25 +22,44 @@ NUMBER_FORMATS: Final[Mapping[str, NumberFormat]] = MappingProxyType({
 """Signs of numbers (Unicode CLDR 46, decimal, group, minimumGroupingDigits)."""
 
 
+@dataclass(frozen=True)
+class Catalogue:
+    """Texts of reports in a language.
+
+    Attributes
+    ----------
+    language : str
+        Code of the language (ISO 639-1).
+    texts : mapping
+        Translations by English text; with {} for what varies, in both.
+    numbers : NumberFormat
+        How the language writes numbers.
+    """
+
+    language: str
+    texts: Mapping[str, str]
+    numbers: NumberFormat = ENGLISH_NUMBERS
+
+    @cached_property
+    def sentences(self) -> list[GappedSentence]:
+        """Sentences with gaps, the longest first."""
+        made = [GappedSentence.of(*pair) for pair in self.texts.items() if GAP.search(pair[0])]
+        return sorted(made, key=lambda one: -one.letters)
+
+
 @cache
-def load_catalogue(language: str) -> Mapping[str, str]:
-    """Return the translations of a language by their English text.
+def load_catalogue(language: str) -> Catalogue:
+    """Return the catalogue of a language.
 
     Raises
     ------
     KeyError
-        There is no catalogue of it.
+        There is none of it.
     """
     if language not in TRANSLATED:
         raise KeyError(language)
     import polib
 
-    text = files("conveyor.languages").joinpath(f"{language}.po").read_text("utf-8")
-    return MappingProxyType({entry.msgid: entry.msgstr for entry in polib.pofile(text)})
-
-
-def report_translator(language: str, names: Collection[str] = frozenset()) -> Translator | None:
-    """Return the translator of a language, with the names that stay as they are; None for English."""
-    if language == "en":
-        return None
-    return Translator(language, load_catalogue(language), NUMBER_FORMATS[language], names)
+    content = files("conveyor.languages").joinpath(f"{language}.po").read_text("utf-8")
+    texts = MappingProxyType({entry.msgid: entry.msgstr for entry in polib.pofile(content)})
+    return Catalogue(language, texts, NUMBER_FORMATS[language])

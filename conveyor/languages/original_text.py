@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection
 from unicodedata import normalize
 
-from conveyor.languages.catalogue import NUMBER_FORMATS, TRANSLATED, load_catalogue
-from conveyor.languages.translator import gap_pattern
+from conveyor.languages import TRANSLATED
+from conveyor.languages.catalogue import load_catalogue
+from conveyor.languages.gapped_sentence import gap_pattern
 
 
 def every_translation(english: str) -> tuple[str, ...]:
     """Return a text in every language, English first."""
-    return english, *(load_catalogue(language)[english] for language in TRANSLATED)
+    return english, *(load_catalogue(language).texts[english] for language in TRANSLATED)
 
 
 def original_header(header: str, known: Collection[str]) -> str:
@@ -32,10 +33,10 @@ def original_header(header: str, known: Collection[str]) -> str:
     ('cover [mm]', 'note')
     """
     label, bracket, unit = normalize("NFKC", header).partition(" [")
-    for language in TRANSLATED:
+    for catalogue in map(load_catalogue, TRANSLATED):
         for english in known:
-            found = gap_pattern(normalize("NFKC", load_catalogue(language)[english])).fullmatch(label)
+            found = gap_pattern(normalize("NFKC", catalogue.texts[english])).fullmatch(label)
             if found is not None:
-                figures = map(NUMBER_FORMATS[language].read, found.groups())
+                figures = map(catalogue.numbers.read, found.groups())
                 return english.format(*figures) + bracket + unit
     return header

@@ -8,19 +8,16 @@ are the same in all languages.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
-from functools import cache, cached_property
-from itertools import pairwise
+from functools import cache
 from typing import Final
 
+from conveyor.languages.catalogue import Catalogue, load_catalogue
+from conveyor.languages.number_format import NUMBER
 from conveyor.units.presentation import report_units
 
-GAP: Final = re.compile(r"(?<!{)\{(\d*)\}(?!})")
-"""A gap of a sentence, in a translation with the number of the gap that it takes."""
-_NUMBER: Final = r"[-+−±]?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:(?:[eE][+-]?\d+)|(?:×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?"
 _LATIN: Final = re.compile(r"[A-Za-z]")
-_LONE_NUMBER: Final = re.compile(rf"(?<![\w.,]){_NUMBER}(?![\w,]|\.\d)")
 _PARTS: Final = ("\n", ". ", "; ", " – ", ": ", ", ", " / ", " x ", " + ", "\xa0×\xa0")
 """What parts of a text stand between, in the order in which it is divided."""
 _LOOSE: Final = frozenset({"\n", "; ", ". ", " – ", ": "})
@@ -34,10 +31,6 @@ _SAME: Final = re.compile(
 )
 _WITH_UNIT: Final = re.compile(r"(.+) (\[[^][]+\]|T(?:[12e]|max|min))", re.DOTALL)
 """A label with its unit, or with its symbol in US reports."""
-_PATH_END: Final = re.compile(r"\.[a-z_]")
-"""What follows a gap that is the begin of a path of a field."""
-_SHORT: Final = 16
-"""Letters of a sentence below which nothing with a comma fills a gap that no mark stands beside."""
 _LEAST_LETTERS: Final = 8
 """Letters of a sentence below which all that fills its gaps has to be known."""
 
@@ -47,85 +40,7 @@ def _figure_pattern() -> re.Pattern[str]:
     """Pattern of a number, with or without a unit of reports or a currency, and of a unit alone."""
     signs = "|".join(map(re.escape, sorted(report_units(), key=len, reverse=True)))
     unit = rf"(?:{signs}|%|kWh|[kG]?Pa|[A-Z]{{3}})(?:/(?:{signs}|kWh))?"
-    return re.compile(rf"(?:(?:[<>≤≥±~+] ?)?{_NUMBER}(?: ?{unit})?)|{unit}|\[[^][]+\]")
-
-
-@dataclass(frozen=True)
-class NumberFormat:
-    """Signs of numbers in a language: decimal, between thousands, digits from which thousands are grouped."""
-
-    decimal: str = "."
-    group: str = ","
-    grouped_from: int = 4
-
-    def localise(self, words: str) -> str:
-        """Write the numbers of a text as the language has them.
-
-        Examples
-        --------
-        >>> NumberFormat(",", ".").localise("1,250.5 kW to 2×10⁻³ (0.1.0)")
-        '1.250,5 kW to 2×10⁻³ (0.1.0)'
-        """
-        return words if self == _ENGLISH else _LONE_NUMBER.sub(self._number, words)
-
-    def read(self, words: str) -> str:
-        """Write a figure of the language as English does.
-
-        Examples
-        --------
-        >>> NumberFormat(",", ".").read("1.250,5 N/mm")
-        '1,250.5 N/mm'
-        """
-        return words if self == _ENGLISH else words.translate(str.maketrans(self.group + self.decimal, ",."))
-
-    def _number(self, found: re.Match[str]) -> str:
-        whole, point, rest = found[0].partition(".")
-        digits = sum(letter.isdigit() for letter in whole)
-        return whole.replace(",", self.group if digits >= self.grouped_from else "") + (point and self.decimal) + rest
-
-
-_ENGLISH = NumberFormat()
-
-
-@dataclass(frozen=True)
-class _Sentence:
-    """A sentence with gaps: its pattern, translation, longest piece and number of letters.
-
-    Of every gap: whether it stays as it is, a name in quotation marks or part of a path, and whether commas may be in
-    what fills it.
-    """
-
-    pattern: re.Pattern[str]
-    translation: str
-    piece: str
-    letters: int
-    quoted: tuple[bool, ...]
-    bounded: tuple[bool, ...]
-
-
-def _literal_pieces(words: str) -> list[str]:
-    """Text before, between and behind the gaps of a sentence."""
-    return [piece.replace("{{", "{").replace("}}", "}") for piece in GAP.split(words)[::2]]
-
-
-def gap_pattern(words: str) -> re.Pattern[str]:
-    """Return the pattern of a sentence; its groups are what fills the gaps."""
-    return re.compile("(.*?)".join(map(re.escape, _literal_pieces(words))), re.DOTALL)
-
-
-def _make_sentence(english: str, translation: str) -> _Sentence:
-    pieces = _literal_pieces(english)
-    letters = sum(letter.isalpha() for piece in pieces for letter in piece)
-    quoted = tuple(
-        (one.endswith('"') and next_.startswith('"')) or one.endswith(".") or _PATH_END.match(next_) is not None
-        for one, next_ in pairwise(pieces)
-    )
-    bounded: list[bool] = []
-    for one, next_ in pairwise(pieces):
-        marks = one.endswith((", ", ": ", "; ", "(", '"')) or next_.startswith((",", ":", ";", ")", '"'))
-        bounded.append(letters >= _SHORT or marks or (one == "" and bounded[-1:] == [True]))
-    longest = max(pieces, key=len)
-    return _Sentence(gap_pattern(english), translation, longest, letters, quoted, tuple(bounded))
+    return re.compile(rf"(?:(?:[<>≤≥±~+] ?)?{NUMBER}(?: ?{unit})?)|{unit}|\[[^][]+\]")
 
 
 @dataclass
@@ -134,27 +49,21 @@ class Translator:
 
     Attributes
     ----------
-    language : str
-        Code of the language (ISO 639-1).
-    entries : mapping
-        Translations by English text; with {} for what varies, in both.
-    numbers : NumberFormat
-        How the language writes numbers.
+    catalogue : Catalogue
+        Texts of the language.
     names : collection of str
         Names that the user gave; they stay as they are.
 
     Examples
     --------
-    >>> german = Translator(
-    ...     "de", {"drive": "Antrieb", "{} of {} checks": "{} von {} Prüfungen"}, NumberFormat(",", ".")
-    ... )
+    >>> from conveyor.languages.number_format import NumberFormat
+    >>> texts = {"drive": "Antrieb", "{} of {} checks": "{} von {} Prüfungen"}
+    >>> german = Translator(Catalogue("de", texts, NumberFormat(",", ".")))
     >>> german.text("drive, 1,250.5 kW"), german.text("3 of 5 checks"), german.text("a drive")
     ('Antrieb, 1.250,5 kW', '3 von 5 Prüfungen', 'a drive')
     """
 
-    language: str
-    entries: Mapping[str, str]
-    numbers: NumberFormat = NumberFormat()
+    catalogue: Catalogue
     names: Collection[str] = frozenset()
     missing: dict[str, None] = field(default_factory=dict)
     """Texts, or parts of them, that have no translation."""
@@ -162,12 +71,6 @@ class Translator:
     def __post_init__(self) -> None:
         self._known: dict[str, tuple[str, tuple[str, ...]]] = {}
         self._made: set[str] = set()
-
-    @cached_property
-    def _sentences(self) -> list[_Sentence]:
-        """Sentences with gaps, the longest first."""
-        made = [_make_sentence(*pair) for pair in self.entries.items() if GAP.search(pair[0])]
-        return sorted(made, key=lambda one: -one.letters)
 
     def text(self, words: str) -> str:
         """Translate a text; what is translated already, and what has no translation, stays as it is."""
@@ -181,15 +84,17 @@ class Translator:
 
     def heading(self, words: str) -> str:
         """Translate a heading or the name of a column, which are the report's own even where a name is spelled so."""
-        if words not in self.entries:
+        if words not in self.catalogue.texts:
             return self.text(words)
-        self._made.add(self.entries[words])
-        return self.entries[words]
+        self._made.add(self.catalogue.texts[words])
+        return self.catalogue.texts[words]
 
     def _is_made(self, words: str) -> bool:
         """True for a translation, alone or with a unit."""
+        if words in self._made:
+            return True
         label = _WITH_UNIT.fullmatch(words)
-        return words in self._made or (label is not None and label[1] in self._made)
+        return label is not None and label[1] in self._made
 
     def keep(self, words: str) -> str:
         """Leave a text as it is, here and wherever it comes again."""
@@ -199,7 +104,7 @@ class Translator:
     def numbers_only(self, words: str) -> str:
         """Write a number as the language has it; other text stays as it is."""
         known = words in self._made or not _figure_pattern().fullmatch(words.strip())
-        return words if known else self.numbers.localise(words)
+        return words if known else self.catalogue.numbers.localise(words)
 
     def _resolve(self, words: str) -> tuple[str, tuple[str, ...]]:
         """Translation of a text, and what of it has none."""
@@ -228,15 +133,15 @@ class Translator:
         if not words.strip() or words in self.names or self._is_made(words):
             return words
         if _figure_pattern().fullmatch(words) or not _LATIN.search(words):
-            return self.numbers.localise(words)
-        if words in self.entries:
-            return self.entries[words]
-        if (other := words[0].swapcase() + words[1:]) in self.entries:
-            return _with_first_letter_as(words, self.entries[other])
+            return self.catalogue.numbers.localise(words)
+        if words in self.catalogue.texts:
+            return self.catalogue.texts[words]
+        if (other := words[0].swapcase() + words[1:]) in self.catalogue.texts:
+            return _with_first_letter_as(words, self.catalogue.texts[other])
         return words if _SAME.fullmatch(words) else None
 
     def _by_sentences(self, words: str) -> Iterator[tuple[str, tuple[str, ...]]]:
-        for sentence in self._sentences:
+        for sentence in self.catalogue.sentences:
             if sentence.piece in words and (found := sentence.pattern.fullmatch(words)):
                 gaps = zip(found.groups(), sentence.bounded, strict=True)
                 if any(_has_comma(part) for part, bounded in gaps if not bounded):
@@ -303,3 +208,8 @@ def _last_bracket(words: str) -> int:
         if depth == 0:
             return i
     return 0
+
+
+def report_translator(language: str, names: Collection[str] = frozenset()) -> Translator:
+    """Return the translator of a language with a catalogue, with the names that stay as they are."""
+    return Translator(load_catalogue(language), names)

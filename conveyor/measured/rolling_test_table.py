@@ -49,8 +49,6 @@ _TEST_TABLE: Final = TableKind(
 FORM_SHEET: Final = "N per width"
 """Sheet name of the test form for belt makers (`conveyor verify-sheet`)."""
 _LOAD_HEADER: Final = re.compile(r"at (\S+) (\S+), ours \[.+\]")
-_FORM_HEADERS: Final = ("compound", "cover", "roll", "belt speed", "temperature", "maker", "at {}, ours")
-"""Headers of the form; its reports are in any language."""
 _FORM_COLUMNS: Final = {
     "cover": "cover thickness",
     "roll": "roll diameter",
@@ -58,6 +56,8 @@ _FORM_COLUMNS: Final = {
     "temperature": "temperature",
 }
 """Columns of the form and their names in a table of tests."""
+_FORM_HEADERS: Final = ("compound", *_FORM_COLUMNS, "maker", "at {}, ours")
+"""Headers of the form, which comes in any language."""
 _TEST_FIELDS: Final = (
     "roll_diameter", "cover_thickness", "speed", "temperature", "uncertainty", "shared_uncertainty", "specimen",
     "source", "note",

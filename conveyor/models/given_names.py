@@ -10,7 +10,7 @@ from conveyor.units.sentences import degree_signs
 
 
 def given_names(value: object) -> frozenset[str]:
-    """Return the free texts of models, of all that they hold, and their keys of mappings; words of a choice are none.
+    """Return the free texts of models and of all that they hold; words of a choice are none.
 
     Examples
     --------

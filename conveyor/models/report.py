@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from conveyor.languages.catalogue import Language
+from conveyor.languages import Language
 from conveyor.models.base import Model, Name
 from conveyor.units import System
 from conveyor.units.unit_systems import trade_of

@@ -50,8 +50,8 @@ _ROW_HEIGHT: Final = 15.0  # [pt]
 _GAP_HEIGHT: Final = 7.0  # [pt]
 
 
-def write_summary(page: SheetWriter, places: Mapping[str, tuple[Worksheet, TablePlace]], checks: str) -> None:
-    """Write the first page; `places` has the tables of the other sheets, for the charts; `checks` is their sheet."""
+def write_summary(page: SheetWriter, places: Mapping[str, tuple[Worksheet, TablePlace]]) -> None:
+    """Write the first page; `places` has the tables of the other sheets, for the charts and the link to the checks."""
     sheet = page.sheet
     for letter, width in _WIDTHS.items():
         sheet.column_dimensions[letter].width = width
@@ -61,7 +61,7 @@ def write_summary(page: SheetWriter, places: Mapping[str, tuple[Worksheet, Table
     row = _key_figures(page, row)
     row = _summary_charts(page, row, places)
     first = row
-    row = _check_rows(page, row, checks)
+    row = _check_rows(page, row, places["checks"][0].title)
     hidden = [each.title for each in sheet.parent or () if each.sheet_state == "hidden"]
     if hidden:
         write_value(sheet.cell(row, 1), f"Hidden data sheets (right-click a tab, Unhide): {', '.join(hidden)}", GREY)

@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, Self, TypeAlias
 
 import numpy as np
 
-from conveyor.languages.catalogue import report_translator
-from conveyor.languages.translator import Translator
+from conveyor.languages.translator import Translator, report_translator
 from conveyor.models.report import Paper
 from conveyor.units import System
 from conveyor.units.presentation import Unit, column_name, display_unit, label_for_people
@@ -419,8 +418,8 @@ class ReportHead:
         Facts below the title.
     language : str
         Language of the texts of page and workbook.
-    names : frozenset of str
-        Names and texts that the user gave, the same in every language.
+    names : callable
+        Returns the names and texts that the user gave, the same in every language.
     """
 
     title: str
@@ -430,7 +429,7 @@ class ReportHead:
     paper: Paper
     facts: tuple[tuple[str, str], ...] = ()
     language: str = "en"
-    names: frozenset[str] = frozenset()
+    names: Callable[[], frozenset[str]] = frozenset
 
     @property
     def document_line(self) -> str:
@@ -485,7 +484,8 @@ class Contents:
     @cached_property
     def translator(self) -> Translator | None:
         """Translator of its texts; None in English."""
-        return report_translator(self.document.language, self.document.names)
+        about = self.document
+        return None if about.language == "en" else report_translator(about.language, about.names())
 
     def in_language(self, language: str) -> Contents:
         """The same contents for a report in a language."""

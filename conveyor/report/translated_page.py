@@ -70,7 +70,7 @@ class _Depth:
 
 def _translate_attributes(token: str, translator: Translator) -> str:
     if token.startswith("<html "):
-        return token.replace('lang="en"', f'lang="{translator.language}"')
+        return token.replace('lang="en"', f'lang="{translator.catalogue.language}"')
     return _ATTRIBUTE.sub(
         lambda found: f"{found[1]}{escape_html(translator.heading(unescape(found[2])))}{found[3]}", token
     )

@@ -6,8 +6,11 @@ import re
 
 import pytest
 
-from conveyor.languages.catalogue import LANGUAGES, NUMBER_FORMATS, TRANSLATED, load_catalogue, report_translator
-from conveyor.languages.translator import GAP, NumberFormat, Translator
+from conveyor.languages import LANGUAGES, TRANSLATED
+from conveyor.languages.catalogue import NUMBER_FORMATS, Catalogue, load_catalogue
+from conveyor.languages.gapped_sentence import GAP
+from conveyor.languages.number_format import NumberFormat
+from conveyor.languages.translator import Translator, report_translator
 from conveyor.models.report import Report
 from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, SUMMARY_SHEET, VERIFICATION_SHEETS
 
@@ -18,8 +21,8 @@ SAME = {"de": 0.05, "es": 0.08, "pt": 0.08, "zh": 0.04}
 
 @pytest.mark.parametrize("language", TRANSLATED)
 def test_every_text_is_translated_with_its_gaps(language):
-    entries = load_catalogue(language)
-    assert entries.keys() == load_catalogue(TRANSLATED[0]).keys()
+    entries = load_catalogue(language).texts
+    assert entries.keys() == load_catalogue(TRANSLATED[0]).texts.keys()
     for english, translation in entries.items():
         assert translation.strip(), english
         gaps, taken = GAP.findall(english), GAP.findall(translation)
@@ -31,7 +34,7 @@ def test_every_text_is_translated_with_its_gaps(language):
 
 @pytest.mark.parametrize("language", TRANSLATED)
 def test_hardly_any_text_is_left_in_english(language):
-    entries = {english: text for english, text in load_catalogue(language).items() if WORDS.search(english)}
+    entries = {english: text for english, text in load_catalogue(language).texts.items() if WORDS.search(english)}
     same = [english for english, text in entries.items() if text == english]
     assert len(same) < SAME[language] * len(entries), same
 
@@ -87,7 +90,7 @@ def test_longer_sentences_go_first_and_parts_are_translated():
         "worst for {}": "ungünstigst für {}",
         "full": "voll",
     }
-    translator = Translator("de", entries, NumberFormat(",", "."), frozenset({"full"}))
+    translator = Translator(Catalogue("de", entries, NumberFormat(",", ".")), frozenset({"full"}))
     assert translator.text("worst for drive force, 2.5 kN") == "ungünstigst für Antriebskraft, 2,5 kN"
     assert translator.text("drive full") == "Antrieb full"
     assert translator.heading("full") == "voll"
@@ -96,20 +99,20 @@ def test_longer_sentences_go_first_and_parts_are_translated():
 
 
 def test_what_has_no_translation_is_named_and_stays():
-    translator = Translator("de", {"belt": "Gurt"}, NumberFormat(",", "."))
+    translator = Translator(Catalogue("de", {"belt": "Gurt"}, NumberFormat(",", ".")))
     assert translator.text("belt; something else") == "Gurt; something else"
     assert list(translator.missing) == ["something else"]
 
 
 def test_a_translation_is_not_translated_again():
-    translator = Translator("de", {"name": "Rest", "Rest": "falsch"})
+    translator = Translator(Catalogue("de", {"name": "Rest", "Rest": "falsch"}))
     assert translator.text(translator.text("name")) == "Rest"
     assert translator.text(translator.heading("name") + " [kN]") == "Rest [kN]"
 
 
 def test_names_in_quotes_and_paths_are_not_translated():
     translator = Translator(
-        "de", {'"{}" of {}': '"{}" von {}', "idlers.{}: {}": "idlers.{}: {}", "return": "Untertrum"}
+        Catalogue("de", {'"{}" of {}': '"{}" von {}', "idlers.{}: {}": "idlers.{}: {}", "return": "Untertrum"})
     )
     assert translator.text('"return" of return') == '"return" von Untertrum'
     assert translator.text("idlers.return: return") == "idlers.return: Untertrum"

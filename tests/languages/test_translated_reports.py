@@ -13,8 +13,9 @@ import pytest
 from conveyor import analyse, load
 from conveyor.errors import InputError
 from conveyor.fitting.fit_verdict import GLOSSARY
-from conveyor.languages.catalogue import TRANSLATED, report_translator
-from conveyor.languages.translator import GAP
+from conveyor.languages import TRANSLATED
+from conveyor.languages.gapped_sentence import GAP
+from conveyor.languages.translator import report_translator
 from conveyor.report import excel, html, pdf
 from conveyor.report.tables.analysis_contents import analysis_contents
 from conveyor.report.translated_page import translate_page

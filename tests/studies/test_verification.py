@@ -13,7 +13,7 @@ import conveyor
 from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.indentation import RollContact, indentation_resistance
-from conveyor.languages.catalogue import TRANSLATED
+from conveyor.languages import TRANSLATED
 from conveyor.measured.rolling_test_table import read_rolling_tests
 from conveyor.report import excel, html
 from conveyor.report.cells import INPUT_FILL

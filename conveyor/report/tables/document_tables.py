@@ -5,6 +5,7 @@ from __future__ import annotations
 import platform
 from collections.abc import Iterable, Sequence
 from datetime import date
+from functools import partial
 from typing import Any, Final
 
 from conveyor.files.output_marks import package_version
@@ -32,9 +33,9 @@ def report_head(
     report = conveyor.report
     names = ("project", "client", "number", "revision", "engineer", "reviewer", "approval")
     said = {name: value for name in names if (value := getattr(report, name)) is not None}
-    names_given = given_names((conveyor, *named))
+    given = partial(given_names, (conveyor, *named))
     paper = report.sheet(system)
-    return ReportHead(conveyor.name, kind, said, fingerprint(conveyor), paper, facts, report.language, names_given)
+    return ReportHead(conveyor.name, kind, said, fingerprint(conveyor), paper, facts, report.language, given)
 
 
 def identity_table(conveyor: Conveyor, system: System) -> Table:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from conveyor.files.output_marks import package_version
@@ -41,7 +42,7 @@ def verification_contents(sheet: CalculatedVerification, system: System) -> Cont
     )
     title = f"Rolling resistance of {names}"
     report = Report() if sheet.conveyor is None else sheet.conveyor.report
-    given = given_names((*sheet.compounds, sheet.conveyor))
+    given = partial(given_names, (*sheet.compounds, sheet.conveyor))
     about = ReportHead(title, "Verification sheet", {}, "", report.sheet(system), facts, report.language, given)
     what = remark_table({"assumption": basis_lines(sheet)}, ABOUT, "What these figures are")
     parts = (what, fill_in_table(), resistance_per_width(sheet, system), resistance_per_set(sheet))
