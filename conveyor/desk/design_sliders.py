@@ -38,8 +38,8 @@ _FIRST: Final[Mapping[ConveyorKind, tuple[str, ...]]] = {
                  "ambient.temperature", _COVERS, "drive.start_factor"),
     "downhill": ("belt.speed", "material.flow", "idlers.carry.spacing", "ambient.belt_temperature",
                  "ambient.temperature", "drive.start_factor", "idlers.carry.roll.diameter"),
-    "pipe": ("belt.speed", "material.flow", "idlers.carry.spacing", "idlers.carry.pipe.forming_load",
-             "ambient.belt_temperature", "ambient.temperature", _COVERS),
+    "pipe": ("belt.speed", "material.flow", "idlers.carry.spacing", "belt.transverse_stiffness",
+             "idlers.carry.pipe.forming_load", "ambient.belt_temperature", "ambient.temperature", _COVERS),
     "feeder": ("belt.speed", "material.flow", _HOPPER + "gate_height", _HOPPER + "outlet_length",
                _HOPPER + "outlet_width", _HOPPER + "top_width", "drive.start_factor"),
 }  # fmt: skip

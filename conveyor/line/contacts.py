@@ -50,10 +50,12 @@ class PeakContacts:
 
 @dataclass(frozen=True, eq=False)
 class RollResult:
-    """One roll of a set: its load and its indentation.
+    """One loaded roll of a set: its load and its indentation.
 
     Attributes
     ----------
+    place : int
+        Number of the roll in its set, from the left.
     load : RollLoad
         Force and distribution.
     curve : IndentationCurve
@@ -66,6 +68,7 @@ class RollResult:
         Contacts of all rolls of the curve, and the number of this one.
     """
 
+    place: int
     load: RollLoad
     curve: IndentationCurve
     resistance: float
@@ -120,14 +123,14 @@ class Contacts:
 
     @cached_property
     def rolls(self) -> tuple[tuple[RollResult, ...], ...]:
-        """The rolls of one set of every stretch, left to right."""
+        """The loaded rolls of one set of every stretch, left to right."""
         stretches = self.line.stretches
         by_position: list[dict[int, RollResult]] = [{} for _ in stretches]
         for kind, curve, drags in zip(self.line.kinds, self.curves, self.drags, strict=True):
             loads = [stretches[i].loads[place] for i, place in kind.rolls]
             peaks = PeakContacts(curve, np.array([load.peak_line_load for load in loads]))
             for n, ((i, place), load, drag) in enumerate(zip(kind.rolls, loads, drags.tolist(), strict=True)):
-                by_position[i][place] = RollResult(load, curve, drag, beside=(peaks, n))
+                by_position[i][place] = RollResult(place, load, curve, drag, beside=(peaks, n))
         return tuple(tuple(rolls[place] for place in sorted(rolls)) for rolls in by_position)
 
     def curves_of(self, strand: Strand) -> tuple[IndentationCurve, ...]:

@@ -53,13 +53,15 @@ class RollKind:
 
 
 def roll_kinds(stretches: tuple[Stretch, ...], points: int, first: int) -> tuple[RollKind, ...]:
-    """Group the rolls of a strand by contact; `points` of the quadrature along a roll.
+    """Group the loaded rolls of a strand by contact; `points` of the quadrature along a roll.
 
     Their stretches are numbered from `first` on.
     """
     gathered: dict[tuple[Strand, float, float], list[tuple[int, int]]] = {}
     for i, stretch in enumerate(stretches):
-        for place, radius in enumerate(stretch.radii):
+        for place, (radius, load) in enumerate(zip(stretch.radii, stretch.loads, strict=True)):
+            if load.force == 0.0:
+                continue  # the belt does not touch it
             gathered.setdefault((stretch.strand, radius, stretch.spacing), []).append((i, place))
     kinds = []
     for (strand, radius, spacing), rolls in gathered.items():

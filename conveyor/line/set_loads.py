@@ -2,17 +2,66 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from conveyor.laws.loading import (
     BulkSpread,
     Heap,
     RollLoad,
+    pipe_area,
+    pipe_forming_load,
     pipe_roll_loads,
+    pipe_transverse_stiffness,
     roll_loads,
     shares_by_area,
     spread_bulk,
 )
+from conveyor.laws.pipe_geometry import pipe_strip_distance
 from conveyor.models import Conveyor, IdlerSet
 from conveyor.units import Quantity, si
+
+
+@dataclass(frozen=True)
+class FormedPipe:
+    """A pipe as its belt forms it.
+
+    Attributes
+    ----------
+    diameter, carcass_radius, belt_width : float
+        Inner diameter; radius to the carcass; width of the belt [m].
+    stiffness : float
+        Bending stiffness across the belt over its length [N m²/m].
+    forming_load : float
+        Mean of what the belt without weight presses on the rolls of a panel at the spacing of its sets [N].
+    """
+
+    diameter: float
+    carcass_radius: float
+    belt_width: float
+    stiffness: float
+    forming_load: float
+
+    @classmethod
+    def of(cls, conveyor: Conveyor, idlers: IdlerSet) -> FormedPipe | None:
+        """Return the pipe of a strand's sets; None of a trough."""
+        belt, pipe = conveyor.belt, idlers.pipe
+        if pipe is None:
+            return None
+        radius = pipe_strip_distance(
+            si(pipe.diameter),
+            cover_thickness=si(belt.top_cover.thickness),
+            carcass_thickness=si(belt.carcass.thickness),
+        )
+        known = {"half_angle": 0.5 * si(belt.width) / radius, "radius": radius, "spacing": si(idlers.spacing)}
+        if pipe.forming_load is not None:
+            load = si(pipe.forming_load)
+            stiffness = pipe_transverse_stiffness(load, **known)
+        elif belt.transverse_stiffness is not None:
+            stiffness = si(belt.transverse_stiffness)
+            load = pipe_forming_load(stiffness, **known)
+        else:
+            raise TypeError(pipe)
+        return cls(si(pipe.diameter), radius, si(belt.width), stiffness, load)
 
 
 class SetLoads:
@@ -42,6 +91,7 @@ class SetLoads:
         self._by_area = idlers.share_rule == "cross-section" and idlers.rolls > 2
         self._found: dict[tuple[float, ...], tuple[RollLoad, ...]] = {}
         self._known_shares: dict[float, tuple[float, ...]] = {}
+        self._pipe = FormedPipe.of(conveyor, idlers)
 
     def of(
         self,
@@ -70,14 +120,17 @@ class SetLoads:
         """
         key = (spacing, inclination, belt_mass, bulk_mass, flow_mass, *pull)
         known = self._found.get(key)
-        if known is None and (pipe := self.idlers.pipe) is not None:
+        if known is None and self._pipe is not None:
             known = self._found[key] = pipe_roll_loads(
                 bulk_line_mass=bulk_mass,
                 belt_line_mass=belt_mass,
                 spacing=spacing,
-                diameter=si(pipe.diameter),
+                diameter=self._pipe.diameter,
+                carcass_radius=self._pipe.carcass_radius,
+                belt_width=self._pipe.belt_width,
+                transverse_stiffness=self._pipe.stiffness,
+                filling=flow_mass / (self._density * pipe_area(self._pipe.diameter)) or 1.0,
                 roll_length=self._roll_length,
-                forming_load=si(pipe.forming_load),
                 inclination=inclination,
                 gravity=self._gravity,
                 curve_down=pull[0],

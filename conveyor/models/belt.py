@@ -20,6 +20,7 @@ from conveyor.units import (
     Fraction,
     Length,
     LineForce,
+    Moment,
     Quantity,
     Speed,
     Temperature,
@@ -157,6 +158,8 @@ class Belt(LibraryItem):
     """Mass per area or per length of the whole belt; else from covers and carcass."""
     thickness: Annotated[Thickness, Bounds(gt="0 mm", le="150 mm")] | None = None
     """Total thickness, to check covers and carcass against."""
+    transverse_stiffness: Annotated[Moment, Bounds(gt="0 N*m", le="10 kN*m")] | None = None
+    """Bending stiffness E I across the belt over its length, which holds a pipe open."""
     wear: BulkWear | None = None
     """How the bulk wears the top cover; without it the covers' thickness is not checked."""
     lowest_temperature: Annotated[Temperature, Bounds(ge="-100 degC", le="200 degC")] | None = None

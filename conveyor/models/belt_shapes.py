@@ -144,8 +144,9 @@ class Pipe(Model):
 
     diameter: Annotated[Length, Bounds(gt="50 mm", le="2 m")]
     """Of the pipe inside the belt; what the belt is wider than its circumference overlaps."""
-    forming_load: Annotated[Force, Bounds(ge="1 N", le="20 kN")]
-    """What the belt, which would open, presses on each roll of a panel: measured, or of its maker; no default."""
+    forming_load: Annotated[Force, Bounds(ge="1 N", le="20 kN")] | None = None
+    """What the belt, which would open, presses on a roll of a panel, the mean of the six without its weight: measured,
+    or of its maker; needed without belt.transverse_stiffness."""
     filling: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("75 %")
     """Most bulk in the pipe, over its cross-section."""
     lump: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("33 %")

@@ -316,6 +316,7 @@ def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
         yield Problem(("idlers", "return", "pipe", "diameter"), message)
     if carry is None:
         return
+    yield from _forming_problems(conveyor)
     if math.pi * si(carry.diameter) >= si(conveyor.belt.width):
         message = (
             f"got {text(carry.diameter)}, whose circumference the belt (belt.width {text(conveyor.belt.width)}) does "
@@ -334,6 +335,23 @@ def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             if getattr(section, name) is not None:
                 message = f"{why} is held by its rolls all round, which bank and steer nothing; remove it"
                 yield Problem(("route", "sections", i, name), message)
+
+
+def _forming_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Require what holds the pipe open, once."""
+    stiffness = conveyor.belt.transverse_stiffness
+    for strand, idlers in _idler_sets(conveyor):
+        if (pipe := idlers.pipe) is None:
+            continue
+        location = ("idlers", strand, "pipe", "forming_load")
+        if stiffness is None and pipe.forming_load is None:
+            message = "missing: give it or belt.transverse_stiffness, by which the belt holds the pipe open: no default"
+            yield Problem(location, message)
+        elif stiffness is not None and pipe.forming_load is not None:
+            message = (
+                f"got {text(pipe.forming_load)} beside belt.transverse_stiffness {text(stiffness)}; give one of the two"
+            )
+            yield Problem(location, message)
 
 
 def _length_coefficient_problems(conveyor: ConveyorParts) -> Iterator[Problem]:

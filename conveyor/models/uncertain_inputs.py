@@ -50,6 +50,8 @@ class Uncertainty(Model):
     """Of the pressure of all cleaners, up and down."""
     skirt_friction: HalfWidth | None = None
     """Of the friction of bulk on skirts, up and down."""
+    forming_load: HalfWidth | None = None
+    """Of a pipe's forming load, or of the stiffness across its belt, up and down."""
     temperature: Annotated[TemperatureDifference, Bounds(gt="0 K", le="100 K")] | None = None
     """Of the belt's covers, up and down."""
     rubber: Switch = False

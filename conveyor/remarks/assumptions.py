@@ -157,10 +157,10 @@ def _share_assumption(conveyor: Conveyor) -> str:
     rule = "VDI 2341"
     if conveyor.idlers.carry.shape.closed:
         return (
-            "Loads of the six rolls by statics of the ring without friction: weights on the three lower ones by the "
-            "lever between them, the given forming load on all (idlers.carry.pipe.forming_load), each evenly over a "
-            "sixth of the circumference; tension in curves on the belt's weight and on the two rolls inside the bend; "
-            "the resistance of forming, flexure and twist of the pipe are left out."
+            "Loads of the six rolls of a pipe: the belt as an elastic strip without friction, its edges lapping on "
+            "top, under weights and tension in curves; a roll that it does not touch has its drag alone. Each load "
+            "lies evenly over a sixth of the circumference; the resistance of forming, flexure and twist of the pipe "
+            "are left out."
         )
     if conveyor.idlers.carry.load_shares is not None:
         rule = "the spec (idlers.carry.load_shares)"

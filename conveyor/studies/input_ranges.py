@@ -355,6 +355,19 @@ def _with_skirts(conveyor: Conveyor, factor: float) -> Conveyor:
     return conveyor.replace(route=route.replace(feeding=points[0], further_feeding=points[1:]))
 
 
+def _with_forming(conveyor: Conveyor, factor: float) -> Conveyor:
+    belt, idlers = conveyor.belt, conveyor.idlers
+    if belt.transverse_stiffness is not None and idlers.carry.pipe is not None:
+        stiffness = scale_quantity(belt.transverse_stiffness, factor)
+        return conveyor.replace(belt=belt.replace(transverse_stiffness=stiffness))
+    changed = {
+        field: each.replace(pipe=each.pipe.replace(forming_load=scale_quantity(each.pipe.forming_load, factor)))
+        for field, each in (("carry", idlers.carry), ("return_", idlers.return_))
+        if each.pipe is not None and each.pipe.forming_load is not None
+    }
+    return conveyor.replace(idlers=idlers.replace(**changed)) if changed else conveyor
+
+
 _INPUT_CHANGES: Final[dict[str, Callable[[Conveyor, float], Conveyor]]] = {
     "flow": _with_flow,
     "density": _with_density,
@@ -362,6 +375,7 @@ _INPUT_CHANGES: Final[dict[str, Callable[[Conveyor, float], Conveyor]]] = {
     "belt_mass": _with_belt_mass,
     "cleaner_pressure": _with_cleaners,
     "skirt_friction": _with_skirts,
+    "forming_load": _with_forming,
 }
 
 

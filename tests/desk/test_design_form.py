@@ -89,13 +89,14 @@ def test_kinds_of_conveyors():
     assert (kinds["pipe"], kinds["feeder"], kinds["slider"]) == ("pipe", "feeder", "in-plant")
 
 
-def test_a_feeder_is_moved_by_its_hopper_and_a_pipe_by_its_forming_load():
-    feeder, pipe = (
+def test_a_feeder_is_moved_by_its_hopper_and_a_pipe_by_what_holds_it_open():
+    feeder, pipe, curved = (
         {slider.path for slider in choose_sliders(conveyor.load(spec), form_of(spec))}
-        for spec in (Path("examples/specs/feeder.yaml"), Path("examples/specs/pipe.yaml"))
+        for spec in (Path(f"examples/specs/{name}.yaml") for name in ("feeder", "pipe", "pipe_curved"))
     )
     assert {"route.feeding.hopper.gate_height", "route.feeding.hopper.outlet_length"} < feeder
-    assert "idlers.carry.pipe.forming_load" in pipe
+    assert "belt.transverse_stiffness" in pipe
+    assert "idlers.carry.pipe.forming_load" in curved
 
 
 def test_a_series_gives_the_steps_of_its_slider():

@@ -1,7 +1,4 @@
-"""Loads of the six rolls of a pipe conveyor's panel: statics of a ring, derived; the forming load is given.
-
-The belt's own stiffness presses it against all six rolls; that forming load has no law here, it is asked for.
-"""
+"""Loads of the six rolls of a pipe conveyor's panel: weights, tension in curves and the belt's own stiffness."""
 
 from __future__ import annotations
 
@@ -15,17 +12,13 @@ from conveyor.arguments.limits import (
     require_not_negative,
     require_positive,
 )
+from conveyor.laws.loading.pipe_strip import pipe_strip_forces
 from conveyor.laws.loading.roll_loading import RollLoad
 
 __all__ = ["PIPE_ROLLS", "pipe_area", "pipe_roll_loads"]
 
 PIPE_ROLLS: Final = ("upper left", "lower left", "bottom", "lower right", "upper right", "top")
 """Places of the rolls of a panel: 60 deg apart, one below."""
-_APART: Final = math.pi / 3.0  # angle between neighbours [rad]
-_BELT_BELOW: Final = 1.0 / 6.0
-"""Share of the ring's weight that stands on the bottom roll [-]."""
-_BULK_BELOW: Final = 4.0 / math.pi * (_APART / 4.0 + math.sin(_APART) ** 2 / (4.0 * _APART))
-"""The same of bulk in vertical columns 2 R cos θ of a full pipe, (4/π) ∫ cos²θ (1 - 3 θ/π) dθ up to 60 deg [-]."""
 
 
 def pipe_area(diameter: float, *, filling: float = 1.0) -> float:
@@ -64,27 +57,36 @@ def pipe_roll_loads(
     belt_line_mass: float,
     spacing: float,
     diameter: float,
+    carcass_radius: float,
+    belt_width: float,
+    transverse_stiffness: float,
+    filling: float,
     roll_length: float,
-    forming_load: float,
     inclination: float,
     gravity: float,
     curve_down: float = 0.0,
     curve_right: float = 0.0,
 ) -> tuple[RollLoad, ...]:
-    """Load of each of the six rolls of a panel: weights, forming load, tension in curves (statics, derived).
+    """Load of each of the six rolls of a panel: the belt as an elastic strip under weights and tension in curves.
 
     Parameters
     ----------
     bulk_line_mass, belt_line_mass : float
         m' of bulk and belt [kg/m], at least 0.
     spacing : float
-        Of the panels [m], positive.
+        a of the panels [m], positive.
     diameter : float
-        D of the pipe [m], positive.
+        D of the pipe inside the belt [m], positive.
+    carcass_radius : float
+        R of its carcass [m], positive, see `pipe_strip_distance`.
+    belt_width : float
+        B [m], positive.
+    transverse_stiffness : float
+        Bending stiffness across the belt, over its length [N m²/m], positive.
+    filling : float
+        Cross-section of the bulk over that of the pipe [-], above 0 to 1; not used without bulk.
     roll_length : float
         Of each roll [m], positive.
-    forming_load : float
-        What the belt, which would open, presses on each roll [N], at least 0.
     inclination : float
         δ [rad], between -pi/2 and pi/2.
     gravity : float
@@ -96,8 +98,9 @@ def pipe_roll_loads(
     Returns
     -------
     tuple of RollLoad
-        By `PIPE_ROLLS`. The parts of the forces across the slope add up to (m'_bulk + m'_belt) g cos δ a + F_down,
-        those to the right to F_right.
+        By `PIPE_ROLLS`; 0 on rolls that the belt does not touch. The parts of the forces across the slope add up to
+        (m'_bulk + m'_belt) g cos δ a + F_down, those to the right to F_right. `belt_force` is that of the empty belt
+        or, where bulk relieves the roll, what is left of it.
 
     Raises
     ------
@@ -106,62 +109,49 @@ def pipe_roll_loads(
 
     Notes
     -----
-    A weight at θ from below stands on the bottom roll by 1 - θ/60 deg, the rest on the lower one beside it, beyond
-    60 deg all of it. Less filling moves bulk to the middle, which is left out. Without friction a roll pushes toward
-    the middle of the pipe. A weight v on a lower roll, 60 deg from below, needs
-    v/cos 60 deg = 2 v; the two push inward on each other through the ring. The forming load is the same on
-    all rolls, so that it holds itself. Each roll bears over a sixth of the pipe's circumference, evenly.
-
-    Tension spread evenly round the pipe pulls strip by strip in the plane of the curve, as weight does. Down and up
-    it adds to the belt's weight; if the sum lifts, it lies on the three upper rolls in the same way, the bulk stays on
-    the lower ones. To a side it lies on the two rolls there, F/(2 cos 30 deg) on each. No pull relieves a roll of its
-    forming load: the safe side.
+    See `pipe_strip_forces`. Tension spread evenly round the pipe pulls strip by strip in the plane of the curve, as
+    weight does. Each roll bears over a sixth of the pipe's circumference, evenly.
 
     Examples
     --------
     >>> loads = pipe_roll_loads(
-    ...     bulk_line_mass=50.0,
-    ...     belt_line_mass=20.0,
+    ...     bulk_line_mass=53.4,
+    ...     belt_line_mass=39.6,
     ...     spacing=1.2,
-    ...     diameter=0.4,
-    ...     roll_length=0.25,
-    ...     forming_load=100.0,
+    ...     diameter=0.38,
+    ...     carcass_radius=0.2005,
+    ...     belt_width=1.46,
+    ...     transverse_stiffness=10.0,
+    ...     filling=0.6,
+    ...     roll_length=0.23,
     ...     inclination=0.0,
     ...     gravity=9.81,
     ... )
     >>> [round(load.force) for load in loads]
-    [100, 554, 470, 554, 100, 100]
+    [2, 770, 889, 694, 78, 486]
     """
-    require_not_negative(bulk_line_mass=bulk_line_mass, belt_line_mass=belt_line_mass, forming_load=forming_load)
-    require_positive(spacing=spacing, diameter=diameter, roll_length=roll_length, gravity=gravity)
+    require_not_negative(bulk_line_mass=bulk_line_mass, belt_line_mass=belt_line_mass)
+    require_positive(
+        spacing=spacing,
+        diameter=diameter,
+        carcass_radius=carcass_radius,
+        belt_width=belt_width,
+        transverse_stiffness=transverse_stiffness,
+        roll_length=roll_length,
+        gravity=gravity,
+    )
     require_angle(-math.pi / 2.0, inclination=inclination)
     require_finite(curve_down=curve_down, curve_right=curve_right)
-    pull = gravity * math.cos(inclination) * spacing
+    weight = gravity * math.cos(inclination) * spacing
+    half_angle, forming = 0.5 * belt_width / carcass_radius, transverse_stiffness * spacing / carcass_radius**2
+    on_belt = (curve_right, -belt_line_mass * weight - curve_down)
+    empty = whole = pipe_strip_forces(half_angle, forming, belt=on_belt)
+    if bulk_line_mass > 0.0:
+        whole = pipe_strip_forces(half_angle, forming, belt=on_belt, bulk=bulk_line_mass * weight, filling=filling)
     length = min(roll_length, math.pi * diameter / 6.0)
-    bulk = _loads_about(bulk_line_mass * pull, _BULK_BELOW)
-    belt = _loads_about(belt_line_mass * pull + curve_down, _BELT_BELOW)
-    side = abs(curve_right) / (2.0 * math.cos(0.5 * _APART))
-    inside = "right" if curve_right > 0.0 else "left"
     return tuple(
         RollLoad(
-            name=name,
-            bulk_force=bulk[name],
-            belt_force=belt[name] + (side if name.endswith(inside) else 0.0) + forming_load,
-            length=length,
-            shape="uniform",
+            name=name, bulk_force=force - min(force, bare), belt_force=min(force, bare), length=length, shape="uniform"
         )
-        for name in PIPE_ROLLS
+        for name, force, bare in zip(PIPE_ROLLS, whole, empty, strict=True)
     )
-
-
-def _loads_about(force: float, share: float) -> dict[str, float]:
-    """Loads of a force down, or up if negative, by its share on the middle one of three rolls [N]."""
-    middle, beside = ("bottom", "lower") if force >= 0.0 else ("top", "upper")
-    size = abs(force)
-
-    def borne(name: str) -> float:
-        if name == middle:
-            return share * size
-        return (1.0 - share) * size if name.startswith(beside) else 0.0  # half of the rest, over cos 60 deg
-
-    return {name: borne(name) for name in PIPE_ROLLS}

@@ -9,6 +9,7 @@ from functools import partial
 from typing import Any, Final
 
 from conveyor.files.output_marks import package_version
+from conveyor.line.set_loads import FormedPipe
 from conveyor.models import Conveyor
 from conveyor.models.calculation_methods import FACTOR_METHODS, METHOD_NAMES
 from conveyor.models.given_names import given_names
@@ -49,8 +50,9 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
     def idlers(of: Any) -> str:
         inner = "" if of.inner_trough_angle is None else f"{shown(of.inner_trough_angle, 'angle')} and "
         lying = f" at {inner}{shown(of.trough_angle, 'angle')}" if of.rolls > 1 else ""
-        if of.pipe is not None:
-            lying = f" around a pipe of {shown(of.pipe.diameter, 'thickness')}"
+        if (pipe := FormedPipe.of(conveyor, of)) is not None:
+            load = display_unit("force", system).said(pipe.forming_load, 3)
+            lying = f" around a pipe of {shown(of.pipe.diameter, 'thickness')}, forming load {load} a roll"
         return f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}{lying}, every {shown(of.spacing, 'length')}"
 
     known = ("breaking", carcass.strength, "belt strength"), ("rated", carcass.rating, "belt rating")

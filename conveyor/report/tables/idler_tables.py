@@ -48,9 +48,9 @@ def roll_table(a: CalculatedConveyor) -> Table:
         Column("roll L10 life", "duration", lambda row: row[3] and row[3].both * _HOUR, sparse=True),
     )  # fmt: skip
     rows = tuple(
-        (r, roll, drag, roll_life(r.stretch, place, roll.curve.contact.speed))
+        (r, roll, drags[roll.place], roll_life(r.stretch, roll.place, roll.curve.contact.speed))
         for r, drags in zip(a.stretches, a.line.roll_drags, strict=True)
-        for place, (roll, drag) in enumerate(zip(r.rolls, drags, strict=True))
+        for roll in r.rolls
     )
     heading = "Every roll of a set, contact at the highest line load"
     return Table("rolls", "Rolls", heading, columns, rows, printed=False)
