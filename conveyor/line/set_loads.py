@@ -8,6 +8,7 @@ from conveyor.laws.loading import (
     BulkSpread,
     Heap,
     RollLoad,
+    least_pipe_stiffness,
     pipe_area,
     pipe_forming_load,
     pipe_roll_loads,
@@ -31,6 +32,8 @@ class FormedPipe:
         Inner diameter; radius to the carcass; width of the belt [m].
     stiffness : float
         Bending stiffness across the belt over its length [N m²/m].
+    belt_weight : float
+        Of the belt over its length [N/m].
     forming_load : float
         Mean of what the belt without weight presses on the rolls of a panel at the spacing of its sets [N].
     """
@@ -39,7 +42,18 @@ class FormedPipe:
     carcass_radius: float
     belt_width: float
     stiffness: float
+    belt_weight: float
     forming_load: float
+
+    @property
+    def half_angle(self) -> float:
+        """Half of the belt's width over the radius of its carcass [rad]."""
+        return 0.5 * self.belt_width / self.carcass_radius
+
+    @property
+    def least_stiffness(self) -> float | None:
+        """Least stiffness with which the empty pipe bears on all six rolls [N m²/m]; None where one never bears."""
+        return least_pipe_stiffness(self.belt_weight, half_angle=self.half_angle, radius=self.carcass_radius)
 
     @classmethod
     def of(cls, conveyor: Conveyor, idlers: IdlerSet) -> FormedPipe | None:
@@ -61,7 +75,8 @@ class FormedPipe:
             load = pipe_forming_load(stiffness, **known)
         else:
             raise TypeError(pipe)
-        return cls(si(pipe.diameter), radius, si(belt.width), stiffness, load)
+        weight = belt.line_mass * si(conveyor.calculation.gravity)
+        return cls(si(pipe.diameter), radius, si(belt.width), stiffness, weight, load)
 
 
 class SetLoads:

@@ -25,6 +25,7 @@ from conveyor.line.belt_contacts import BeltContacts
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import Line
 from conveyor.line.roll_drags import acceptance_limit, assumed_bearing, bearing_viscosity
+from conveyor.line.set_loads import FormedPipe
 from conveyor.loop.annual_energy import lacks_feed_in_price
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.library_items import without_entry_fields
@@ -311,6 +312,7 @@ def roll_warnings(result: CalculatedConveyor) -> tuple[Message, ...]:
         *(_alignment_warnings(conveyor) if itemised else ()),
         *_cover_warnings(conveyor),
         *_set_warnings(result),
+        *_pipe_warnings(conveyor),
         *bed_warnings(conveyor),
         *hopper_warnings(conveyor),
         *_other_warnings(conveyor),
@@ -470,6 +472,22 @@ def _set_warnings(result: CalculatedConveyor) -> Iterator[Message]:
                 (spacing, "length"),
                 (widest[strand], "length"),
             )
+
+
+def _pipe_warnings(conveyor: Conveyor) -> Iterator[Message]:
+    """A belt too soft to bear on all six rolls, or one whose lap keeps it from a roll."""
+    pipe = FormedPipe.of(conveyor, conveyor.idlers.carry)
+    if pipe is None:
+        return
+    if pipe.least_stiffness is None:
+        yield message("idlers.carry.pipe: with this lap the empty pipe leaves a roll untouched, however stiff the belt")
+    elif pipe.stiffness < pipe.least_stiffness:
+        yield message(
+            "idlers.carry.pipe: the empty pipe bears on all six rolls from a stiffness across the belt of {}, "
+            "here it is {}: a softer belt may not keep its form",
+            (pipe.least_stiffness, "moment"),
+            (pipe.stiffness, "moment"),
+        )
 
 
 def _other_warnings(conveyor: Conveyor) -> Iterator[Message]:

@@ -10,8 +10,11 @@ import conveyor
 from conveyor.checks.bulk_checks import belt_filling, pipe_lumps
 from conveyor.errors import InputError
 from conveyor.laws.loading import PIPE_ROLLS, pipe_area, pipe_forming_load, pipe_roll_loads
+from conveyor.laws.loading.pipe_strip import _lapped_forces
+from conveyor.line.set_loads import FormedPipe
 from conveyor.models.fields import with_fields
 from conveyor.pipeline import calculate
+from conveyor.remarks.result_warnings import roll_warnings
 from conveyor.report.tables.study_tables import flooded_belt as flooded_table
 from conveyor.studies.flooding import flooded_belt
 from conveyor.studies.input_ranges import analyse_ranges
@@ -68,6 +71,21 @@ def test_the_forming_load_is_the_mean_of_the_weightless_pipe(spec):
     other = with_fields(spec, given | {"belt.transverse_stiffness": None})
     loads = [[roll.force for roll in calculate(one).line.stretches[0].loads] for one in (other, spec)]
     assert loads[0] == pytest.approx(loads[1], rel=1e-9)
+
+
+def test_a_belt_too_soft_for_its_pipe_is_told(spec):
+    """Just stiff enough, every roll bears with either edge outside; a tenth less, and one does not."""
+    least = FormedPipe.of(spec, spec.idlers.carry).least_stiffness
+    assert least == pytest.approx(8.2, abs=0.02)
+    weight, radius = 39.62 * 9.81 * 1.2, 0.2005
+    for share, all_bear in ((1.01, True), (0.9, False)):
+        forces = _lapped_forces(0.73 / radius, share * least * 1.2 / radius**2, (0.0, -weight), 0.0, 0.5)
+        assert (min(forces) > 0.0) is all_bear
+    for stiffness, told in (("8.3 N*m", False), ("7 N*m", True)):
+        found = roll_warnings(calculate(with_fields(spec, {"belt.transverse_stiffness": stiffness})))
+        assert any("bears on all six rolls from" in line.text() for line in found) is told
+    narrow = roll_warnings(calculate(with_fields(spec, {"belt.width": "1300 mm"})))
+    assert any("leaves a roll untouched" in line.text() for line in narrow)
 
 
 def test_half_the_spacing_is_half_the_forming_of_a_panel(spec):

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from conveyor.arguments.limits import require, require_not_negative, require_positive
 
-__all__ = ["pipe_forming_load", "pipe_strip_forces", "pipe_transverse_stiffness"]
+__all__ = ["least_pipe_stiffness", "pipe_forming_load", "pipe_strip_forces", "pipe_transverse_stiffness"]
 
 Array = NDArray[np.float64]
 
@@ -264,3 +264,51 @@ def pipe_transverse_stiffness(forming_load: float, *, half_angle: float, radius:
     """
     require_positive(forming_load=forming_load, radius=radius, spacing=spacing)
     return forming_load * radius**2 / (_forming_coefficient(half_angle) * spacing)
+
+
+_STIFFEST: Final = 1e3
+"""Stiffness over weight beyond which the weight moves no force [-]."""
+
+
+@lru_cache(maxsize=32)
+def _bearing_coefficient(half_angle: float) -> float | None:
+    """Least D/(w R²) with which every roll bears, whichever edge laps [-]; None where a roll never does."""
+    from scipy.optimize import brentq  # as above
+
+    def least(exponent: float) -> float:
+        forces = _lapped_forces(half_angle, 10.0**exponent, (0.0, -1.0), 0.0, 1.0)
+        return min(forces) - 1e-9  # 0 where a roll does not bear
+
+    ends = -3.0, math.log10(_STIFFEST)
+    return None if least(ends[1]) < 0.0 else float(10.0 ** brentq(least, *ends, xtol=1e-6))
+
+
+def least_pipe_stiffness(belt_weight: float, *, half_angle: float, radius: float) -> float | None:
+    """Least stiffness across the belt with which an empty pipe bears on all six rolls, κ w R² (derived).
+
+    Parameters
+    ----------
+    belt_weight : float
+        w of the belt over its length [N/m], positive.
+    half_angle, radius : float
+        As in `pipe_forming_load` [rad, m].
+
+    Returns
+    -------
+    float or None
+        D [N m²/m], whichever edge lies outside in the lap; None where a roll bears at no stiffness, as with laps below
+        12 %.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> round(least_pipe_stiffness(388.5, half_angle=3.641, radius=0.2005), 1)
+    8.3
+    """
+    require_positive(belt_weight=belt_weight, radius=radius)
+    coefficient = _bearing_coefficient(half_angle)
+    return None if coefficient is None else coefficient * belt_weight * radius**2
