@@ -225,7 +225,7 @@ def _pipe_band(result: CalculatedConveyor) -> tuple[float, float]:
 PIPE_STRIP_BANDS: Final = {"stiffness": (0.8, 1.25), "forming load": (0.75, 1.1)}
 """Indentation by the elastica between flat rolls, over that by the linear strip of `pipe_strip_forces` [-], at the same
 stiffness and at the same forming load: 36 of 40 cases and more, laps of 6 to 25 %, empty and full
-(tests/laws/test_pipe_strip.py)."""
+(tests/validation/test_pipe_strip.py)."""
 COVERS_OF_A_KIND: Final = (0.7, 1.4)
 """Indentation of covers sold under one name, over their middle [-]: general knowledge; a design program takes 0.80 for
 low-resistance covers, tests of single makes differ by as much either way."""

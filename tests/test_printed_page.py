@@ -34,7 +34,7 @@ says what of it is printed and what is assumed. `python tests/test_printed_page.
 TAIL = """
 ## Why they differ
 
-* **Printed designs.** The expected resistance is a quarter below print, the upper end of the band a tenth above it: a
+* **Printed designs.** The expected resistance is a fifth below print, the upper end of the band an eighth above it: a
   designer's f of 0.020 to 0.023 is an expected 0.012 to 0.018 with allowance. DTII(A)'s 0.023 is for dusty, wet plants;
   Dunlop takes the losses of the end (C) from a table, 1.5 and more.
 * **Short and empty belts** (BC-01, TR-120H, the belt of 38 m). Half of the printed force is for pulleys by CEMA's count
@@ -44,11 +44,10 @@ TAIL = """
   below the band: their rubber was better than the low-resistance cover of the published test, and spacing and rolls
   are not known.
 * **PC01, a pipe.** Print needs 98 % of its friction for the empty belt: 2,110 kN of bulk add 5.0 kN, of which 1.4 kN
-  accelerate it. Bulk that loads the lower rolls alone, as here, adds 49 kN. No forming load mends that: with 163 N a
-  roll the full belt has the printed friction, the empty one 82 % of it. A stiff pipe that rests on all six rolls at
-  once would do: bulk takes from the upper rolls what it adds to the lower ones (W/3 cos θ on each); with 391 N a roll
-  the full belt has the printed friction, the empty one 97 % of it (by hand, indentation as the load to the power 4/3).
-  The report prints neither forming load nor loads of the rolls: a reason that fits, not one that is proved.
+  accelerate it. Here bulk adds 45 kN on the lower rolls. No stiffness across the belt mends that: with 8.2 N m²/m the
+  full belt has the printed friction, the empty one 85 % of it, and even a belt of four times that stiffness relieves
+  its upper rolls by less than 5 % of the bulk. The report prints neither stiffness nor loads of the rolls; assumed are
+  7 N m²/m, with which the empty pipe just bears on all six.
 * **Not added.** Part-load losses of gears and motors: the printed empties are those of the belt. (A motor loses
   typically 4 points of efficiency at 25 % load, Western Area Power Administration 2003; enter `drive.efficiency`.)
 """

@@ -89,7 +89,9 @@ FILES = {
     "test_iso_5048": "ISO 5048, DIN 22101's C, VDI 2341's shares, every printed digit",
     "test_measured_conveyors": "friction measured or printed, with the package's covers and defaults",
     "test_menga_2019": "the paper's limits and claims with our numbers, and its errata",
-    "test_pc01": "a printed pipe conveyor with as much friction empty as full: two ways of its rolls to bear bulk",
+    "test_pc01": "a printed pipe conveyor with as much friction empty as full, which no stiffness of its belt explains",
+    "test_pipe_strip": "the belt bent to a pipe against a chain of links of least energy: small turns, and the "
+    "elastica between flat rolls",
     "test_reference_cases": "42 contacts computed elsewhere at two tolerances; the estimated errors hold",
     "test_rulmeca_cema": "CEMA's classic form against two printed sheets of Rulmeca's program, item by item",
     "test_split_contacts": "contacts of two strips against a derivation and the grid over the range of Fig. 4",

@@ -167,7 +167,7 @@ def pipe_strip_forces(
     over the places between the left edge and θ, and that of the weights; the free strip is flat. Bulk presses by
     vertical columns, and to the sides by `LATERAL_PRESSURE`. Beside the elastica between flat rolls, which bends out
     of the circle, the sum of the forces to the power 4/3, as indentation has it, is 0.75 to 1.27 times that
-    here, 1.0 on the median (laps of 6 to 25 %, empty and full, tests/laws/test_pipe_strip.py).
+    here, 1.0 on the median (laps of 6 to 25 %, empty and full, tests/validation/test_pipe_strip.py).
 
     Examples
     --------
