@@ -144,7 +144,7 @@ class SetLoads:
                 carcass_radius=self._pipe.carcass_radius,
                 belt_width=self._pipe.belt_width,
                 transverse_stiffness=self._pipe.stiffness,
-                filling=flow_mass / (self._density * pipe_area(self._pipe.diameter)) or 1.0,
+                filling=flow_mass / (self._density * pipe_area(self._pipe.diameter)),
                 roll_length=self._roll_length,
                 inclination=inclination,
                 gravity=self._gravity,

@@ -171,6 +171,9 @@ def test_a_flooded_pipe_is_full_and_no_more(spec):
     flooded = flooded_belt(calculate(spec))
     assert flooded.section == pytest.approx(math.pi * 0.38**2 / 4.0, rel=1e-12)
     assert flooded.found.line.flow == pytest.approx(flooded.section * 850.0 * 5.2, rel=1e-9)
+    for diameter in range(370, 392, 3):  # full to rounding
+        sizes = {f"idlers.{strand}.pipe.diameter": f"{diameter} mm" for strand in ("carry", "return")}
+        assert flooded_belt(calculate(with_fields(spec, sizes))).section > 0.1
     note = flooded_table(flooded).note
     assert "filling the whole pipe" in note
     assert "edge to edge" not in note

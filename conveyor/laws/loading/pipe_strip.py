@@ -27,6 +27,7 @@ _MIRRORED: Final = (4, 3, 2, 1, 0, 5)
 LATERAL_PRESSURE: Final = 0.5
 """Horizontal over vertical pressure of the bulk at rest, 1 - sin 30 deg (Jaky 1944) [-]; from 0.3 to 1 the sum of the
 forces changes by 3 %."""
+_FULL: Final = 1.0 + 1e-9  # a pipe filled whole, calculated from its flow
 _POINTS: Final = 1201  # of the strip: forces change by less than 1e-4 with twice as many
 _LAP_POINTS: Final = 5  # of the lap, at which its layers may touch; its inner edge alone does at usual overlaps
 _STRESS_ON_BALANCE: Final = 1e3  # weight of the equilibrium while the touching rolls are sought
@@ -177,7 +178,7 @@ def pipe_strip_forces(
     require(2.0 <= half_angle < 2.0 * math.pi, "half_angle", half_angle, ">= 2 and < 2 pi rad")
     require_positive(forming=forming)
     require_not_negative(bulk=bulk)
-    require(0.0 < filling <= 1.0, "filling", filling, "> 0 and <= 1")
+    require(0.0 < filling <= _FULL, "filling", filling, "> 0 and <= 1")
     right, up = belt
     lapped = mirrored = _lapped_forces(half_angle, forming, belt, bulk, filling)
     if right:
