@@ -128,7 +128,7 @@ def pipe_roll_loads(
     ...     gravity=9.81,
     ... )
     >>> [round(load.force) for load in loads]
-    [2, 770, 889, 694, 78, 486]
+    [40, 732, 889, 732, 40, 486]
     """
     require_not_negative(bulk_line_mass=bulk_line_mass, belt_line_mass=belt_line_mass)
     require_positive(
