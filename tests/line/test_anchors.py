@@ -129,6 +129,7 @@ def test_the_level_is_in_the_uncertainty(line):
     carry = effects['test factor of "low-rolling-resistance-cover"']
     middle = calculate(line)
     half = middle.contacts.test_factor_band("carry")
+    assert (carry.low, carry.high) == (f"{100.0 * math.expm1(-half):+.0f} %", f"{100.0 * math.expm1(half):+.0f} %")
     along = {force.key: force for force in middle.balance.along}["indentation"].by_strand()["carry"]
     efficiency = middle.line.efficiency
     # the carry rolls' force and the pulleys' share of the tensions, less the flexure that a tighter belt loses

@@ -13,7 +13,9 @@ from conveyor.indentation import RollContact, indentation_curve, indentation_res
 from conveyor.laboratory import read_dma
 from conveyor.laws.resistance import length_coefficient
 from conveyor.models import Conveyor
+from conveyor.models.fields import with_fields
 from conveyor.pipeline import calculate
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.rubber import PronySeries, fit_prony, shift_series
 from conveyor.shelf import built_in, compound
 from conveyor.spec import from_data, load
@@ -298,3 +300,12 @@ def test_load_exponent_of_s100():
     exponents = np.diff(np.log(resistance)) / math.log(2.0)
     assert np.all((exponents > 1.24) & (exponents < 1.32)), exponents
     assert math.log(resistance[-1] / resistance[0]) / math.log(8.0) == pytest.approx(1.28, abs=0.02)
+
+
+def test_cleaners_are_warned_of_where_none_are_given(line, result):
+    def told(of):
+        return [warning.text() for warning in analysis_warnings(of, ()) if "leaner" in warning.text()]
+
+    assert told(result) == []
+    (assumed,) = told(calculate(with_fields(line, {"route.cleaners": []})))
+    assert "2 as wide as the belt assumed" in assumed

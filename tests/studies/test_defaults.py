@@ -14,6 +14,7 @@ from conveyor.default_bands import power_range
 from conveyor.effects import root_of_squares
 from conveyor.laws.misalignment import misalignment_friction
 from conveyor.models import Conveyor
+from conveyor.models.fields import with_fields
 from conveyor.pipeline import calculate, calculate_many
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -164,6 +165,29 @@ def test_the_high_ends_of_usual_parts_are_those_of_cema(bare):
     assert effects["cleaners"].high_factor * usual["cleaner"] == pytest.approx(scraped, rel=1e-12)
     turned = effects["pulleys"].high_factor * (usual["wrap"] + usual["pulley_bearings"])
     assert turned == pytest.approx(500.0 * 4.4482216152605, rel=1e-12)
+
+
+def test_low_ends_of_usual_parts_are_half_or_a_single_cleaner(bare):
+    """Of two cleaners one is left; skirts and pulleys have half."""
+    effects = {one.key: one for one in power_range(calculate(calculated(bare, not_given="usual values"))).effects}
+    assert [effects[key].low_factor for key in ("cleaners", "pulleys", "skirts")] == pytest.approx([0.5, 0.5, 0.5])
+
+
+@pytest.mark.parametrize(("given", "low", "high"), [("stiffness", 0.8, 1.25), ("forming load", 0.75, 1.1)])
+def test_the_strip_of_a_pipe_has_its_band_on_both_strands(given, low, high):
+    """Elastica over linear strip: 36 of 40 cases lie within, see tests/validation/test_pipe_strip.py."""
+    pipe = conveyor.load(SPECS / "pipe.yaml")
+    if given == "forming load":
+        load = {f"idlers.{strand}.pipe.forming_load": "259 N" for strand in ("carry", "return")}
+        pipe = with_fields(pipe, load | {"belt.transverse_stiffness": None})
+    found = calculate(pipe)
+    effects = {one.key: one for one in power_range(found).effects}
+    assert (effects["pipe_rolls"].low_factor, effects["pipe_rolls"].high_factor) == (low, high)
+    others = effects["cover"]  # of both strands, too
+    assert effects["pipe_rolls"].swing / others.swing == pytest.approx((high - low) / (1.4 - 0.7), rel=0.02)
+    assert "pipe_rolls" not in {
+        one.key for one in power_range(calculate(conveyor.load(SPECS / "overland.yaml"))).effects
+    }
 
 
 def test_nothing_lands_on_an_empty_belt_nor_stands_where_nothing_is_asked_for(bare):
