@@ -342,3 +342,8 @@ def test_models_ask_no_parser_of_expressions(monkeypatch: pytest.MonkeyPatch) ->
 
     monkeypatch.setattr(pint.registry.UnitRegistry, "parse_expression", refuse)
     Sample(**{**VALID, "width": "1.2345 m"})
+
+
+def test_a_margin_beyond_what_says_something_is_cut_at_both_ends():
+    shown = [display_unit("margin").said(share) for share in (0.999, 1.5, -9.0, -10.5)]
+    assert shown == ["99.9 %", "> 100 %", "-900.0 %", "< -1,000 %"]
