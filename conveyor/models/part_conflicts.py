@@ -9,7 +9,7 @@ from typing import Final
 from conveyor.errors import InputError, MessageQuantity, RangeError
 from conveyor.laws.idler_sets import rated_set_load
 from conveyor.laws.loading import bulk_line_mass
-from conveyor.laws.pipe_geometry import FURTHEST_LAP
+from conveyor.laws.pipe_geometry import FURTHEST_LAP, pipe_strip_distance
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
 from conveyor.laws.tension import usual_stiffness
 from conveyor.models.base import Problem
@@ -317,10 +317,16 @@ def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     if carry is None:
         return
     yield from _forming_problems(conveyor)
-    if math.pi * si(carry.diameter) >= si(conveyor.belt.width):
+    belt = conveyor.belt
+    carcass_radius = pipe_strip_distance(
+        si(carry.diameter),
+        cover_thickness=si(belt.top_cover.thickness),
+        carcass_thickness=si(belt.carcass.thickness),
+    )
+    if 2.0 * math.pi * carcass_radius > si(belt.width):
         message = (
-            f"got {text(carry.diameter)}, whose circumference the belt (belt.width {text(conveyor.belt.width)}) does "
-            "not close: take a smaller pipe or a wider belt"
+            f"got {text(carry.diameter)}, round which the carcass of the belt (belt.width {text(belt.width)}) does not "
+            "close: take a smaller pipe or a wider belt"
         )
         yield Problem(("idlers", "carry", "pipe", "diameter"), message)
     if si(conveyor.belt.width) >= FURTHEST_LAP * math.pi * si(carry.diameter):

@@ -135,6 +135,7 @@ def test_a_stiffer_belt_costs_power_and_both_strands_run_on_the_bottom_cover(spe
         ({"idlers.carry.share_rule": "cross-section"}, "share_rule", "troughs"),
         ({"idlers.carry.rolls": 3}, "pipe", "a pipe has rolls: 6"),
         ({"idlers.carry.pipe.diameter": "480 mm"}, "diameter", "does not close"),
+        ({"belt.width": "1250 mm"}, "diameter", "the carcass of the belt .* does not close"),  # 2 pi 200.5 mm = 1260 mm
         ({"idlers.return.pipe.diameter": "300 mm"}, "diameter", "the same pipe"),
         ({"route.sections.0.horizontal_curve": "left", "route.sections.0.horizontal_radius": "5000 m",
           "route.sections.0.carry_banking": "3 deg"}, "carry_banking", "held by its rolls"),
