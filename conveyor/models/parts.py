@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Final, Literal, Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
 from conveyor.laws.resistance import FRICTION_FACTOR, Site
@@ -74,6 +74,17 @@ class Calculation(Model):
     """Factors of the classic form of CEMA, computed beside this calculation where they are given."""
     gravity: Annotated[Acceleration, Bounds(ge="9.7 m/s^2", le="9.9 m/s^2")] = quantity("9.81 m/s^2")
     """Acceleration of gravity at the site."""
+
+    @field_validator("method", mode="before")
+    @classmethod
+    def _citable(cls, method: object) -> object:
+        if method == "cema universal":
+            message = (
+                'got "cema universal": neither its form nor its coefficients are in a source that may be cited; take '
+                '"cema classic" with Ky of the book, or "viscoelastic", whose forces are of the same kinds'
+            )
+            raise PydanticCustomError("conflict", "{message}", {"message": message})
+        return method
 
     @model_validator(mode="after")
     def _whole_method(self) -> Self:

@@ -213,6 +213,8 @@ def test_what_a_method_does_not_know_is_refused():
         conveyor.compare(by("overland", "din 22101"), ["S100", "S120"])
     with pytest.raises(InputError, match="method"):
         by("overland", "din 22102")
+    with pytest.raises(InputError, match=r'method: got "cema universal": .* take "cema classic" with Ky'):
+        by("overland", "cema universal")
 
 
 def test_a_duty_is_sized_by_the_rolling_contact():
