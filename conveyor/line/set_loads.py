@@ -17,7 +17,6 @@ from conveyor.laws.loading import (
     shares_by_area,
     spread_bulk,
 )
-from conveyor.laws.pipe_geometry import pipe_strip_distance
 from conveyor.models import Conveyor, IdlerSet
 from conveyor.units import Quantity, si
 
@@ -28,27 +27,31 @@ class FormedPipe:
 
     Attributes
     ----------
-    diameter, carcass_radius, belt_width : float
-        Inner diameter; radius to the carcass; width of the belt [m].
+    diameter, carcass_radius : float
+        Inner diameter; radius to the carcass [m].
+    half_angle : float
+        Half of the belt's width over the radius of its carcass [rad].
+    spacing : float
+        Of its sets [m].
     stiffness : float
         Bending stiffness across the belt over its length [N m²/m].
     belt_weight : float
         Of the belt over its length [N/m].
-    forming_load : float
-        Mean of what the belt without weight presses on the rolls of a panel at the spacing of its sets [N].
     """
 
     diameter: float
     carcass_radius: float
-    belt_width: float
+    half_angle: float
+    spacing: float
     stiffness: float
     belt_weight: float
-    forming_load: float
 
     @property
-    def half_angle(self) -> float:
-        """Half of the belt's width over the radius of its carcass [rad]."""
-        return 0.5 * self.belt_width / self.carcass_radius
+    def forming_load(self) -> float:
+        """Mean of what the belt without weight presses on the rolls of a panel at the spacing of its sets [N]."""
+        return pipe_forming_load(
+            self.stiffness, half_angle=self.half_angle, radius=self.carcass_radius, spacing=self.spacing
+        )
 
     @property
     def least_stiffness(self) -> float | None:
@@ -61,22 +64,17 @@ class FormedPipe:
         belt, pipe = conveyor.belt, idlers.pipe
         if pipe is None:
             return None
-        radius = pipe_strip_distance(
-            si(pipe.diameter),
-            cover_thickness=si(belt.top_cover.thickness),
-            carcass_thickness=si(belt.carcass.thickness),
-        )
-        known = {"half_angle": 0.5 * si(belt.width) / radius, "radius": radius, "spacing": si(idlers.spacing)}
-        if pipe.forming_load is not None:
-            load = si(pipe.forming_load)
-            stiffness = pipe_transverse_stiffness(load, **known)
-        elif belt.transverse_stiffness is not None:
+        radius, spacing = pipe.carcass_radius(belt.top_cover.thickness, belt.carcass.thickness), si(idlers.spacing)
+        half_angle = 0.5 * si(belt.width) / radius
+        if belt.transverse_stiffness is not None:
             stiffness = si(belt.transverse_stiffness)
-            load = pipe_forming_load(stiffness, **known)
+        elif pipe.forming_load is not None:
+            load = si(pipe.forming_load)
+            stiffness = pipe_transverse_stiffness(load, half_angle=half_angle, radius=radius, spacing=spacing)
         else:
             raise TypeError(pipe)
         weight = belt.line_mass * si(conveyor.calculation.gravity)
-        return cls(si(pipe.diameter), radius, si(belt.width), stiffness, weight, load)
+        return cls(si(pipe.diameter), radius, half_angle, spacing, stiffness, weight)
 
 
 class SetLoads:
@@ -142,7 +140,7 @@ class SetLoads:
                 spacing=spacing,
                 diameter=self._pipe.diameter,
                 carcass_radius=self._pipe.carcass_radius,
-                belt_width=self._pipe.belt_width,
+                half_angle=self._pipe.half_angle,
                 transverse_stiffness=self._pipe.stiffness,
                 filling=flow_mass / (self._density * pipe_area(self._pipe.diameter)),
                 roll_length=self._roll_length,

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar, Final, Protocol
 
 from conveyor.laws.loading import CrossSection, Wing, cross_section, pipe_area, roll_angles, usable_width
-from conveyor.laws.pipe_geometry import forming_length, pipe_transition_stretch
+from conveyor.laws.pipe_geometry import forming_length, pipe_strip_distance, pipe_transition_stretch
 from conveyor.laws.transition import TransitionStretch, transition_stretch
 from conveyor.models.base import Model
-from conveyor.units import Bounds, Force, Fraction, Length, quantity, si
+from conveyor.units import Bounds, Force, Fraction, Length, Quantity, quantity, si
 
 OVERFILL_LIMIT: Final = 1.5
 """Largest calculated bulk over the cross-section that a trough holds [-]; more where edge to edge holds more."""
@@ -156,6 +156,10 @@ class Pipe(Model):
     filling_source: ClassVar[str] = "idlers.carry.pipe.filling"
     brim: ClassVar[str] = "filling the whole pipe"
     larger: ClassVar[str] = "a larger pipe"
+
+    def carcass_radius(self, cover: Quantity, carcass: Quantity) -> float:
+        """Radius of the middle of the carcass, by its thickness and that of the cover inside [m]."""
+        return pipe_strip_distance(si(self.diameter), cover_thickness=si(cover), carcass_thickness=si(carcass))
 
     @property
     def radius(self) -> float:

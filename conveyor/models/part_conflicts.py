@@ -9,7 +9,7 @@ from typing import Final
 from conveyor.errors import InputError, MessageQuantity, RangeError
 from conveyor.laws.idler_sets import rated_set_load
 from conveyor.laws.loading import bulk_line_mass
-from conveyor.laws.pipe_geometry import FURTHEST_LAP, pipe_strip_distance
+from conveyor.laws.pipe_geometry import FURTHEST_LAP
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
 from conveyor.laws.tension import usual_stiffness
 from conveyor.models.base import Problem
@@ -318,12 +318,7 @@ def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
         return
     yield from _forming_problems(conveyor)
     belt = conveyor.belt
-    carcass_radius = pipe_strip_distance(
-        si(carry.diameter),
-        cover_thickness=si(belt.top_cover.thickness),
-        carcass_thickness=si(belt.carcass.thickness),
-    )
-    if 2.0 * math.pi * carcass_radius > si(belt.width):
+    if 2.0 * math.pi * carry.carcass_radius(belt.top_cover.thickness, belt.carcass.thickness) > si(belt.width):
         message = (
             f"got {text(carry.diameter)}, round which the carcass of the belt (belt.width {text(belt.width)}) does not "
             "close: take a smaller pipe or a wider belt"

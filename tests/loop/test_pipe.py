@@ -24,7 +24,7 @@ SPEC = ROOT / "examples" / "specs" / "pipe.yaml"
 ANGLES = tuple(math.radians(60.0 * (place - 2)) for place in range(6))  # from below, by PIPE_ROLLS
 PANEL = {
     "bulk_line_mass": 53.4, "belt_line_mass": 39.6, "spacing": 1.2, "diameter": 0.38, "carcass_radius": 0.2005,
-    "belt_width": 1.46, "transverse_stiffness": 8.0, "filling": 0.6, "roll_length": 0.23, "inclination": 0.0,
+    "half_angle": 0.73 / 0.2005, "transverse_stiffness": 8.0, "filling": 0.6, "roll_length": 0.23, "inclination": 0.0,
     "gravity": 9.81,
 }  # fmt: skip
 

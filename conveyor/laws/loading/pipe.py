@@ -58,7 +58,7 @@ def pipe_roll_loads(
     spacing: float,
     diameter: float,
     carcass_radius: float,
-    belt_width: float,
+    half_angle: float,
     transverse_stiffness: float,
     filling: float,
     roll_length: float,
@@ -79,8 +79,8 @@ def pipe_roll_loads(
         D of the pipe inside the belt [m], positive.
     carcass_radius : float
         R of its carcass [m], positive, see `pipe_strip_distance`.
-    belt_width : float
-        B [m], positive.
+    half_angle : float
+        B/(2 R) of the belt's width on that circle [rad], from 2 to below 2 pi.
     transverse_stiffness : float
         Bending stiffness across the belt, over its length [N m²/m], positive.
     filling : float
@@ -120,7 +120,7 @@ def pipe_roll_loads(
     ...     spacing=1.2,
     ...     diameter=0.38,
     ...     carcass_radius=0.2005,
-    ...     belt_width=1.46,
+    ...     half_angle=3.641,
     ...     transverse_stiffness=10.0,
     ...     filling=0.6,
     ...     roll_length=0.23,
@@ -135,7 +135,6 @@ def pipe_roll_loads(
         spacing=spacing,
         diameter=diameter,
         carcass_radius=carcass_radius,
-        belt_width=belt_width,
         transverse_stiffness=transverse_stiffness,
         roll_length=roll_length,
         gravity=gravity,
@@ -143,7 +142,7 @@ def pipe_roll_loads(
     require_angle(-math.pi / 2.0, inclination=inclination)
     require_finite(curve_down=curve_down, curve_right=curve_right)
     weight = gravity * math.cos(inclination) * spacing
-    half_angle, forming = 0.5 * belt_width / carcass_radius, transverse_stiffness * spacing / carcass_radius**2
+    forming = transverse_stiffness * spacing / carcass_radius**2
     on_belt = (curve_right, -belt_line_mass * weight - curve_down)
     empty = whole = pipe_strip_forces(half_angle, forming, belt=on_belt)
     if bulk_line_mass > 0.0:

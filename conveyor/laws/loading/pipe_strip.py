@@ -263,12 +263,12 @@ def pipe_transverse_stiffness(forming_load: float, *, half_angle: float, radius:
     >>> round(pipe_transverse_stiffness(250.0, half_angle=3.64, radius=0.2, spacing=1.2), 2)
     7.98
     """
-    require_positive(forming_load=forming_load, radius=radius, spacing=spacing)
-    return forming_load * radius**2 / (_forming_coefficient(half_angle) * spacing)
+    require_positive(forming_load=forming_load)
+    return forming_load / pipe_forming_load(1.0, half_angle=half_angle, radius=radius, spacing=spacing)
 
 
-_STIFFEST: Final = 1e3
-"""Stiffness over weight beyond which the weight moves no force [-]."""
+_DECADES: Final = (-3.0, 3.0)
+"""Of D/(w R²): from a belt that lies on the lower rolls to one whose forces its weight does not move."""
 
 
 @lru_cache(maxsize=32)
@@ -280,8 +280,7 @@ def _bearing_coefficient(half_angle: float) -> float | None:
         forces = _lapped_forces(half_angle, 10.0**exponent, (0.0, -1.0), 0.0, 1.0)
         return min(forces) - 1e-9  # 0 where a roll does not bear
 
-    ends = -3.0, math.log10(_STIFFEST)
-    return None if least(ends[1]) < 0.0 else float(10.0 ** brentq(least, *ends, xtol=1e-6))
+    return None if least(_DECADES[1]) < 0.0 else float(10.0 ** brentq(least, *_DECADES, xtol=1e-6))
 
 
 def least_pipe_stiffness(belt_weight: float, *, half_angle: float, radius: float) -> float | None:
