@@ -11,6 +11,7 @@ import openpyxl
 import pytest
 
 from conveyor import analyse, load
+from conveyor.default_bands import DEFAULTS
 from conveyor.errors import InputError
 from conveyor.fitting.fit_verdict import GLOSSARY
 from conveyor.languages import TRANSLATED
@@ -173,3 +174,11 @@ def test_fonts_of_pdf_come_with_matplotlib(tmp_path):
     typst = pytest.importorskip("typst")
     pdf.copy_fonts(tmp_path)
     assert "DejaVu Sans" in typst.Fonts(include_system_fonts=False, font_paths=[tmp_path]).families()
+
+
+@pytest.mark.parametrize("language", TRANSLATED)
+def test_every_default_with_a_band_is_translated(language):
+    words = report_translator(language)
+    for one in DEFAULTS:
+        words.text(one.what)
+    assert words.missing == {}
