@@ -215,7 +215,7 @@ def test_help_imports_nothing_heavy() -> None:
 
 
 def test_power_of_a_spec_without_scenarios_does_not_import_dynamics() -> None:
-    heavy = "('conveyor.dynamics', 'pandas', 'matplotlib', 'openpyxl')"
+    heavy = "('conveyor.dynamics', 'pandas', 'matplotlib', 'openpyxl', 'scipy.optimize')"
     code = f"""import sys, conveyor.cli
 try:
     conveyor.cli.main()

@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from conveyor.laws.loading import Wing, spread_bulk, wing_pieces
 from conveyor.line.line import Line
@@ -74,6 +73,8 @@ def _set_outline(line: Line, stretch: Stretch, surcharge: float) -> SetOutline:
 
 def _pipe_outline(line: Line, stretch: Stretch, radius: float) -> SetOutline:
     """Outline of a pipe of an inner radius [m] with its level bulk between six rolls."""
+    from scipy.optimize import brentq  # a tenth of a second, for pipes alone
+
     thickness = line.belt.thickness
     turn = np.linspace(0.0, 2.0 * math.pi, 2 * _HEAP_POINTS)
     bulk = None
