@@ -34,7 +34,7 @@ SOURCES = {
     "bending moment, torque; printed digits",
     "Helix feeder load calculation": "a printed sheet of Helix delta-T, feeder ZC01-FD001 under a slot hopper, lump "
     "coal; printed digits; its load in flow lacks the divisor 4 tan α that the balance below the outlet asks for "
-    "([conveyor.md](conveyor.md#belt-feeders))",
+    "([special_belts.md](special_belts.md#belt-feeders))",
     "Shortt (2019), idler of 127 mm, bearings 6305": "G. Shortt, Why idlers fail, bulk-online research paper 2146, "
     "example 1.2: ISO 281, two bearings alike; printed digits",
     "NEMA MG 10, table 2-3": "the example of the EASA handbook, 122/50; printed digits",

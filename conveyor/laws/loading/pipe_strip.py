@@ -1,7 +1,7 @@
 """Belt bent to a pipe in six rolls: an elastic strip, flat when free, that rolls hold together and weights press on.
 
-Derived, see docs/conveyor.md: the strip is inextensible, near to the circle, without friction. Of all forces that hold
-it in equilibrium and only push, those of rolls and lap that occur have the least complementary energy,
+Derived, see docs/special_belts.md: the strip is inextensible, near to the circle, without friction. Of all forces that
+hold it in equilibrium and only push, those of rolls and lap that occur have the least complementary energy,
 min ∫ (M - D/R)² dθ (Castigliano; a linear complementarity problem).
 """
 
