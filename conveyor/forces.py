@@ -52,7 +52,8 @@ from conveyor.models import Calibration
 
 Array = NDArray[np.float64]
 
-_TILT_STEEP = math.radians(37.5)  # trough angle midway between the two listed coefficients C_e
+_VEE = 2  # rolls of a set
+_TILT_TROUGHS = np.radians((30.0, 45.0))  # [rad], trough angles of the two listed coefficients C_e
 _SLOPE_TENSION = 1e6  # [N], tension for the slope of a wrap; the law is linear, any would do
 _CONTACT_SOURCE = "viscoelastic contact of every roll (see Method)"
 _MISALIGNMENT_SOURCE = "friction across the belt x sine of the angle, derived"
@@ -191,12 +192,15 @@ def _misalignment_force(stretch: Stretch, _gravity: float) -> float:
 
 
 def _tilt_force(stretch: Stretch, gravity: float) -> float:
-    """Resistance of wings tilted forward [N]."""
+    """Resistance of wings tilted forward [N]; C_e in between is interpolated, beyond its ends kept."""
     if stretch.tilt_angle == 0.0:
         return 0.0
-    steep = stretch.trough_angle > _TILT_STEEP
+    listed = (TILT_COEFFICIENT_30.value, TILT_COEFFICIENT_45.value)
+    wings = math.cos(stretch.trough_angle)
+    if len(stretch.loads) != _VEE:
+        wings = float(np.interp(stretch.trough_angle, _TILT_TROUGHS, listed))
     return idler_tilt_resistance(
-        tilt_coefficient=(TILT_COEFFICIENT_45 if steep else TILT_COEFFICIENT_30).value,
+        tilt_coefficient=wings,
         roll_friction=ROLL_ON_BELT_FRICTION.value,
         length=stretch.length,
         belt_mass=stretch.belt_mass,

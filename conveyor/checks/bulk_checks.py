@@ -78,10 +78,19 @@ def skirtboards(result: CalculatedConveyor) -> Iterator[Check]:
     """Skirtboards are at least as long as the zone of acceleration; where their length is given."""
     for landing in result.loading_point_duty:
         point = landing.point
-        if point.skirtboards is not None:
+        if point.skirtboards is None:
+            continue
+        if landing.on_slope is None:
+            subject = message(f"length of the skirtboards{escape_braces(point.name)}")
+            why = message("the belt is too steep for the bulk that lands on it: it slides back")
+            shown, asked = message("{}", (point.skirtboards, "length")), message("no length helps")
+            yield Check("skirtboards", subject, point.skirtboards, None, "length", shown, asked, "FAIL", why)
+        else:
+            level = landing.on_slope == landing.acceleration
+            source = "zone of acceleration, ISO 5048" if level else "zone of acceleration on its slope, ISO 5048"
             yield check_against_limit(
                 "skirtboards", f"length of the skirtboards{escape_braces(point.name)}", point.skirtboards, "at least",
-                landing.acceleration, "length", source="zone of acceleration, ISO 5048",
+                landing.on_slope, "length", source=source,
                 why=f"the skirtboards{escape_braces(point.name)} end {{calculated}} behind the place of loading, "
                     f"the bulk has "
                 "the belt's speed after {required}: longer ones, or bulk that lands faster",

@@ -193,8 +193,8 @@ def _motor_starts_check(name: str, asked: float, allowed: float | str) -> Check:
 
 
 def coasting_time(result: CalculatedConveyor) -> Iterator[Check]:
-    """Coasting without power and brakes lasts the required time; on failure the flywheel needed is named."""
-    wanted, stopped = result.line.coast_time, result.motions.coasting
+    """Coasting without power and brakes lasts the required time at design friction, or a flywheel is named."""
+    wanted, stopped = result.line.coast_time, result.motions.coasting_design
     if wanted is None or stopped is None:
         return
     inertia = coasting_flywheel(result.line, result.motions)

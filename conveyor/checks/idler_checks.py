@@ -6,14 +6,14 @@ from collections.abc import Iterator
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks.check import Check, check_against_limit, pass_or_fail
-from conveyor.line.roll_lives import SERIES_RATED_LIFE, shortest_set_life
+from conveyor.line.roll_lives import shortest_set_life
 from conveyor.line.stretches import STRANDS, Strand
 from conveyor.loop.set_duty import SetDuty
 from conveyor.units.sentences import escape_braces, message, percent
 
 
 def roll_life(result: CalculatedConveyor) -> Iterator[Check]:
-    """Idler sets reach the rated life of light series; where their bearings are given."""
+    """Idler sets reach the rated life of their CEMA class, or of light series; where their bearings are given."""
     for strand in STRANDS:
         life = shortest_set_life(result.line.stretches, strand, result.line.speed)
         if life is None:
@@ -21,18 +21,18 @@ def roll_life(result: CalculatedConveyor) -> Iterator[Check]:
         why = message(
             f"{strand} rolls: L10 of all bearings of a set in {escape_braces(life.section)} is {{}} (of the "
             f"{life.weakest} "
-            f"alone {{}}), less than the {SERIES_RATED_LIFE:,.0f} h that light series are rated for (CEMA, as commonly "
+            f"alone {{}}), less than the {life.rated:,.0f} h that such sets are rated for (CEMA, as commonly "
             "reproduced); seals and dirt may end it sooner",
             *((3600.0 * hours, "duration") for hours in (life.hours, life.weakest_hours)),
         )
         asked, judged = (
-            message(f"at least {SERIES_RATED_LIFE:,.0f} h"),
+            message(f"at least {life.rated:,.0f} h"),
             pass_or_fail(holds=not life.too_short),
         )
         if not life.whole and not life.too_short:
             asked, judged = message("bearings of some rolls not given"), "not checked"
         yield Check(
-            "roll_life", message(f"L10 life, {strand} idler sets"), 3600.0 * life.hours, 3600.0 * SERIES_RATED_LIFE,
+            "roll_life", message(f"L10 life, {strand} idler sets"), 3600.0 * life.hours, 3600.0 * life.rated,
             "duration", message("{}", (3600.0 * life.hours, "duration")), asked, judged, why,
         )  # fmt: skip
 

@@ -202,8 +202,8 @@ def pulley_group_diameter(drive_diameter: float, *, group: Group, utilisation: f
     drive_diameter : float
         D_A, least diameter of the drive pulley at full tension [m], positive, see `least_pulley_diameter`.
     group : {"A", "B", "C"}
-        A [-]: drive and others at high tension; B: tail, take-up and bend pulleys at low tension; C: snub pulleys
-        that turn the belt by less than 30 deg.
+        A [-]: drive pulleys and all at high tension, wherever they stand; B: pulleys at low tension, as tail and
+        take-up of most conveyors; C: snub pulleys that turn the belt by less than 30 deg.
     utilisation : float
         Tension of the belt there in steady running over the allowed one [-], at least 0.
 

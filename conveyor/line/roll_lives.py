@@ -24,8 +24,8 @@ _LIFE_EXPONENTS = {"ball": BALL_EXPONENT, "roller": ROLLER_EXPONENT}
 _WEIBULL_SLOPES = {"ball": WEIBULL_SLOPE_BALL, "roller": WEIBULL_SLOPE_ROLLER}
 
 
-SERIES_RATED_LIFE = 30e3
-"""L10 of CEMA's load ratings of series B and C at 500 rpm [h], as commonly reproduced."""
+_LIGHT_RATED_LIFE, _HEAVY_RATED_LIFE = 30e3, 60e3
+"""L10 of CEMA's load ratings at 500 rpm [h]: of B and C; of D, E and C on tapered rollers (scribd 483814341)."""
 
 
 @dataclass(frozen=True)
@@ -106,6 +106,8 @@ class SetLife:
         L10 of that roll [h].
     whole : bool
         True if the bearings of every roll are known; else the life is shorter.
+    rated : float
+        L10 that the sets' CEMA class is rated for; without a class that of light series [h].
     """
 
     section: str
@@ -113,11 +115,19 @@ class SetLife:
     weakest: str
     weakest_hours: float
     whole: bool
+    rated: float
 
     @property
     def too_short(self) -> bool:
-        """True if below the rated life of light series."""
-        return self.hours < SERIES_RATED_LIFE
+        """True if below the rated life."""
+        return self.hours < self.rated
+
+
+def _rated_life(stretch: Stretch) -> float:
+    """L10 that the class of a stretch's sets is rated for [h]."""
+    name = stretch.idlers.cema_class
+    kinds = {bearing.kind for place in range(len(stretch.loads)) if (bearing := stretch.idlers.roll_at(place).bearing)}
+    return _HEAVY_RATED_LIFE if name in {"D", "E"} or (name == "C" and "roller" in kinds) else _LIGHT_RATED_LIFE
 
 
 def idler_set_life(stretch: Stretch, belt_speed: float) -> SetLife | None:
@@ -128,11 +138,12 @@ def idler_set_life(stretch: Stretch, belt_speed: float) -> SetLife | None:
         return None
     together = system_life_hours([one[0] for one in known], weibull_slopes=[one[2] for one in known])
     hours, roll, _ = min(known)
-    return SetLife(stretch.section, together, roll, hours, len(known) == len(lives))
+    return SetLife(stretch.section, together, roll, hours, len(known) == len(lives), _rated_life(stretch))
 
 
 def shortest_set_life(stretches: Sequence[Stretch], strand: Strand, belt_speed: float) -> SetLife | None:
-    """Shortest life of a strand's sets at a belt speed [m/s]; None without known bearings."""
-    alike = {stretch.loads: stretch for stretch in reversed(stretches) if stretch.strand == strand}
+    """Life of a strand's sets, the shortest over the rated one, at a belt speed [m/s]; None without known bearings."""
+    sets = [stretch for stretch in reversed(stretches) if stretch.strand == strand]
+    alike = {(stretch.loads, _rated_life(stretch)): stretch for stretch in sets}
     lives = [idler_set_life(stretch, belt_speed) for stretch in alike.values()]
-    return min((life for life in lives if life is not None), key=lambda life: life.hours, default=None)
+    return min((life for life in lives if life is not None), key=lambda life: life.hours / life.rated, default=None)

@@ -42,8 +42,8 @@ class SetLimits:
     least_class : str or None
         First CEMA class rated for `load`; None without one, or where the spec gives no rating.
     lump_factor : float or None
-        Factor on the bulk's load, as given or by lump size, 1 for unknown size; None outside the printed table, where
-        `load` is without it.
+        Factor on the bulk's load as given, or on that of belt and bulk by lump size, 1 for unknown size; None outside
+        the printed table, where `load` is without it.
     load : float
         Load of a set to compare with its rating [N]: with lumps, and the belt's pull on a set raised too high.
     flap_margin : float or None
@@ -62,10 +62,14 @@ class SetLimits:
 
     @classmethod
     def of(cls, stretch: Stretch, line: Line, *, tension: float) -> SetLimits:
-        """Limits and load of a stretch's sets at the highest belt tension that occurs there [N]."""
+        """Limits and load of a stretch's sets at the highest belt tension there in steady running [N]."""
         given, belt_width = stretch.idlers, line.belt.width
-        lumps = given.lump_factor or usual_lump_factor(line.lump, line.weight_density)
-        load = math.fsum(roll.belt_force + (lumps or 1.0) * roll.bulk_force for roll in stretch.loads)
+        usual = usual_lump_factor(line.lump, line.weight_density)  # Sandvik's: of belt and bulk; CEMA's of bulk alone
+        lumps, whole = given.lump_factor or usual, given.lump_factor is None and stretch.bulk_mass > 0.0
+        load = math.fsum(
+            ((lumps or 1.0) if whole else 1.0) * roll.belt_force + (lumps or 1.0) * roll.bulk_force
+            for roll in stretch.loads
+        )
         load += raised_set_load(max(tension, 0.0), height=raised_height(stretch), spacing=stretch.spacing)
         ratings = {
             name: rating for name in CEMA_CLASSES if (rating := _class_rating(name, stretch, belt_width)) is not None

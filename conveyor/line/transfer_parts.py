@@ -58,11 +58,12 @@ class LoadingPoint:
         """Hopper with bulk in it."""
         return self.hopper if self.flow > 0.0 else None
 
-    def acceleration_length(self, belt_speed: float, gravity: float) -> float:
-        """Length in which the bulk reaches the belt's speed [m]."""
+    def acceleration_length(self, belt_speed: float, gravity: float, inclination: float = 0.0) -> float:
+        """Length in which the bulk reaches the belt's speed [m]; level as ISO 5048 has it, or on a slope [rad]."""
         return acceleration_length(
-            belt_speed=belt_speed, initial_speed=self.speed, belt_friction=self.belt_friction, gravity=gravity
-        )
+            belt_speed=belt_speed, initial_speed=self.speed, belt_friction=self.belt_friction, gravity=gravity,
+            inclination=inclination,
+        )  # fmt: skip
 
     def boards(self, belt_speed: float, gravity: float) -> float:
         """Length of the skirtboards [m]: as given, else the zone of acceleration and beyond it."""

@@ -260,12 +260,15 @@ def _pulley_checks(balance: Balance) -> Iterator[PulleyCheck]:
     drive = _drive_diameter(line)
     if drive is None:
         return
+    running = balance.settled.running
+    lowest = min(float(min(state.starts.min(), state.ends.min())) for state in running)
+    high = 0.5 * (lowest + _largest_running(balance))
     for i, pulley in enumerate(line.pulleys):
         if pulley.assumed:  # of the least diameter
             continue
-        group, used, full = _pulley_group(pulley), None, 1.0
+        most = max(max(pulley_tensions(balance, i, state)) for state in running)
+        group, used, full = _pulley_group(pulley, tight=most > high), None, 1.0
         if allowed is not None:
-            most = max(max(pulley_tensions(balance, i, state)) for state in balance.settled.running)
             used = full = max(0.0, most) / (line.belt.width * allowed)
         least = pulley_group_diameter(drive, group=group, utilisation=full)
         size = None
@@ -276,11 +279,13 @@ def _pulley_checks(balance: Balance) -> Iterator[PulleyCheck]:
         yield PulleyCheck(pulley.name, pulley.position, group, used, pulley.diameter, least, size)
 
 
-def _pulley_group(pulley: BendPulley) -> Group:
-    snub = pulley.wrap_angle < SNUB_WRAP
-    if pulley.driven or (pulley.position == "head" and not snub):
+def _pulley_group(pulley: BendPulley, *, tight: bool) -> Group:
+    """Group of a pulley; `tight` above the middle of the lowest and highest tension of the loop in steady running."""
+    if pulley.driven:
         return "A"
-    return "C" if snub else "B"
+    if pulley.wrap_angle < SNUB_WRAP:
+        return "C"
+    return "A" if tight else "B"
 
 
 def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[CurveCheck]:

@@ -107,16 +107,18 @@ class DriveDuty:
 
     @cached_property
     def stalled(self) -> float | None:
-        """Torque at the pulley when motors trip at largest torque, the belt blocked [N m]; None if unknown."""
-        if self.drive.power is None or self.drive.radius is None or not self.line.torque_curve:
+        """Torque at the pulley when motors trip at largest torque, the belt blocked [N m]; None if unknown.
+
+        Of its own motors; a backstop bears its part of what drives without one pulled, too: nothing else holds that.
+        """
+        others = self.line.drives if _has_backstop(self.drive) else ()
+        unheld = [_stall_force(self.line, drive) for drive in others if not _has_backstop(drive)]
+        forces = [_stall_force(self.line, self.drive), *unheld]
+        if self.drive.radius is None or None in forces:
             return None
-        force = start_force(
-            self.drive.power,
-            torque_factor=max(torque for _, torque in self.line.torque_curve),
-            efficiency=self.line.efficiency,
-            rated_belt_speed=self.line.speed,
-        )
-        return force * self.drive.radius
+        own, *more = (force for force in forces if force is not None)
+        held = backstop_torque(math.fsum(more), radius=self.drive.radius, count=self.backstops) if more else 0.0
+        return own * self.drive.radius + held
 
     @property
     def backstop(self) -> float | None:
@@ -172,6 +174,18 @@ def drive_duty(balance: Balance, moving: StartAndStop) -> tuple[DriveDuty, ...]:
     )
 
 
+def _stall_force(line: Line, drive: DriveUnit) -> float | None:
+    """Largest force of the motors of a drive at the belt [N]; None without power or torque curve."""
+    if drive.power is None or not line.torque_curve:
+        return None
+    return start_force(
+        drive.power,
+        torque_factor=max(torque for _, torque in line.torque_curve),
+        efficiency=line.efficiency,
+        rated_belt_speed=line.speed,
+    )
+
+
 def _has_backstop(drive: DriveUnit) -> bool:
     return drive.backstop is True or (drive.parts is not None and drive.parts.backstop is not None)
 
@@ -209,7 +223,7 @@ def coasting_flywheel(line: Line, moving: StartAndStop) -> float | None:
 
     None where none is required, the belt does not stop by itself, or ratio or diameter of the first drive are unknown.
     """
-    first, stopped = line.drives[0], moving.coasting
+    first, stopped = line.drives[0], moving.coasting_design
     ratio = None if first.parts is None else first.parts.ratio
     if ratio is None and first.parts is not None and first.parts.rotation is not None and first.radius is not None:
         ratio = 2.0 * math.pi * first.radius * first.parts.rotation / line.speed

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import partial
 
 from conveyor.classical_forces import initial_pull
 from conveyor.errors import NoSolutionError
@@ -75,8 +75,9 @@ class StartAndStop:
         Mass of belt, bulk and rolls; that of the drives, reduced to the belt [kg].
     start, design_start : Start
         Start at the spec's start factor, with the expected friction and with that to design for.
-    coasting, coasting_least : Stop or None
-        Stop without brakes, at computed and least certain friction; None where the belt does not stop by itself.
+    coasting, coasting_design, coasting_least : Stop or None
+        Stop without brakes, at computed friction, that to design for and the least certain one; None where the belt
+        does not stop by itself.
     braked : Stop or None
         Stop with the brakes of the spec after their delay, at least certain friction; None without brakes or a stop.
     runaway : float or None
@@ -92,6 +93,8 @@ class StartAndStop:
         uphill; 0 where it stays by itself.
     rolls_back : bool
         True if a backstop must hold it.
+    hardest : tuple of float
+        Hardest deceleration (negative) and highest acceleration that occur, whatever the friction [m/s²].
     slip : SlipLimits or None
         Limits of bulk slip; None on an empty belt.
     states : dict of str to MotionState
@@ -103,6 +106,7 @@ class StartAndStop:
     start: Start
     design_start: Start
     coasting: Stop | None
+    coasting_design: Stop | None
     coasting_least: Stop | None
     braked: Stop | None
     runaway: float | None
@@ -111,15 +115,9 @@ class StartAndStop:
     brake_to_stop: float | None
     brake_to_hold: float
     rolls_back: bool
+    hardest: tuple[float, float]
     slip: SlipLimits | None
     states: dict[str, MotionState]
-
-    @cached_property
-    def hardest(self) -> tuple[float, float]:
-        """Hardest deceleration (negative) and highest acceleration that occur [m/s²]."""
-        accelerations = [0.0, self.start.acceleration]
-        accelerations += [-s.deceleration for s in (self.coasting, self.coasting_least, self.braked) if s is not None]
-        return min(accelerations), max(accelerations)
 
 
 def start_and_stop(balance: Balance) -> StartAndStop:
@@ -142,15 +140,18 @@ def start_and_stop(balance: Balance) -> StartAndStop:
     whole = mass + rotating
     gripping = max(0.0, line.speed - least / whole * line.brake_delay)
     stopped, heat = (None, None) if brakes == 0.0 else _braked_stop(line, least, brakes, whole, gripping)
-    off, expected = settled.coasting, _conveyor_start(balance, mass, rotating, 1.0)
+    off, starting = settled.coasting, partial(_conveyor_start, balance, mass, rotating)
+    frictions = {1.0, line.design_friction, line.least_friction}
+    starts = {friction: starting(friction) for friction in frictions}
+    pushes = [start.acceleration for start in starts.values()]
+    stop = _hardest_stop(line, settled.design_force, brakes, whole)
     return StartAndStop(
         moving_mass=mass,
         rotating_mass=rotating,
-        start=expected,
-        design_start=expected
-        if line.design_friction == 1.0
-        else _conveyor_start(balance, mass, rotating, line.design_friction),
+        start=starts[1.0],
+        design_start=starts[line.design_friction],
         coasting=_stop_under_force(line.speed, settled.force, whole),
+        coasting_design=_stop_under_force(line.speed, settled.design_force, whole),
         coasting_least=_stop_under_force(line.speed, least, whole),
         braked=stopped,
         runaway=-least / whole if least < 0.0 else None,
@@ -159,6 +160,7 @@ def start_and_stop(balance: Balance) -> StartAndStop:
         brake_to_stop=None if wanted is None else max(0.0, brake_force(wanted, resistance=least, moving_mass=whole)),
         brake_to_hold=hold,
         rolls_back=back,
+        hardest=(min(-stop, *pushes), max(0.0, *pushes)),
         slip=_slip_limits(line),
         states={} if off is None else {off.name: off},
     )
@@ -176,6 +178,12 @@ def _holding_force(lift: float, friction: float) -> tuple[float, bool]:
 
 def _stop_under_force(speed: float, force: float, mass: float) -> Stop | None:
     return constant_force_stop(speed, retarding_force=force, moving_mass=mass) if force > 0.0 else None
+
+
+def _hardest_stop(line: Line, force: float, brakes: float, mass: float) -> float:
+    """Deceleration without drives under a resistance [m/s²], at least 0; with brakes if it runs after their delay."""
+    grips = line.speed > force / mass * line.brake_delay
+    return max(0.0, (force + brakes) / mass if grips else force / mass)
 
 
 def _braked_stop(

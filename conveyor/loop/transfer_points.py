@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from conveyor.errors import NoSolutionError
 from conveyor.laws.discharge import (
     BulkOnPulley,
     FreeFall,
@@ -35,7 +36,9 @@ class LoadingPointDuty:
     point : LoadingPoint
         The loading point.
     acceleration, usual_skirts : float
-        Length in which the bulk reaches the belt's speed, and length of skirtboards by CEMA [m].
+        Length in which the bulk reaches the belt's speed by ISO 5048 (level), and length of skirtboards by CEMA [m].
+    on_slope : float or None
+        The first on the belt's slope, at least that of ISO 5048 [m]; None where it is too steep for its friction.
     resting : float
         Weight of belt and bulk on a set there [N].
     stream, lump, energy : float or None
@@ -45,6 +48,7 @@ class LoadingPointDuty:
     point: LoadingPoint
     acceleration: float
     usual_skirts: float
+    on_slope: float | None
     resting: float
     stream: float | None
     lump: float | None
@@ -76,10 +80,16 @@ def _point_duty(line: Line, point: LoadingPoint) -> LoadingPointDuty:
             energy = point.lump_mass * gravity * drop
             if point.idler_stiffness is not None:
                 lump = lump_impact(point.lump_mass, drop_height=drop, stiffness=point.idler_stiffness, gravity=gravity)
+    level = point.acceleration_length(line.speed, gravity)
+    try:
+        on_slope = max(level, point.acceleration_length(line.speed, gravity, stretch.inclination))
+    except NoSolutionError:
+        on_slope = None
     return LoadingPointDuty(
         point,
-        point.acceleration_length(line.speed, gravity),
+        level,
         usual_skirt_length(line.speed),
+        on_slope,
         (stretch.belt_mass + point.flow_beyond / line.speed) * spacing * gravity,
         stream,
         lump,

@@ -210,7 +210,7 @@ class CriterionLoadings(SectionLoadings):
         if line.stop_deceleration is not None:
             figures["stopping brake"] = line.stop_deceleration * whole - least
         figures["coast-down stop"] = _where_present(least > 0.0, whole / np.where(least > 0.0, least, 1.0))
-        slowing = figures["coasting"] = np.maximum(steady, 0.0) / whole
+        slowing = figures["coasting"] = np.maximum(most, 0.0) / whole
         if brakes > 0.0:
             gripping = np.maximum(0.0, line.speed - least / whole * line.brake_delay)
             braked = np.where(gripping > 0.0, least + brakes, least) / whole
@@ -221,13 +221,14 @@ class CriterionLoadings(SectionLoadings):
             figures["stop with brakes"] = np.where(
                 stops, line.brake_delay + after, _where_present((gripping == 0.0) & (least > 0.0), unbraked)
             )
-            slowing = np.maximum(slowing, braked)
-        start, _ = self._motion(self._states[1], steady, mass)
+            grips = line.speed > most / whole * line.brake_delay
+            slowing = np.maximum(slowing, np.where(grips, most + brakes, most) / whole)
+        starts = np.array([self._motion(self._states[1], force, mass)[0] for force in (steady, most, least)])
         *limits, slides = self._slip_limits
         hard, fast = (np.where(flags, limit, np.inf).min(axis=-1) for limit in limits)
         rests = np.asarray(~(flags & slides).any(axis=-1))
-        figures["slip on stopping"] = _where_present(rests, np.maximum(slowing, -start) / hard)
-        figures["slip on starting"] = _where_present(rests, np.maximum(start, 0.0) / fast)
+        figures["slip on stopping"] = _where_present(rests, np.maximum(slowing, -starts.min(axis=0)) / hard)
+        figures["slip on starting"] = _where_present(rests, np.maximum(starts.max(axis=0), 0.0) / fast)
         pulls, pull = most > 0.0, self.full.frame.standing.pull
         if pull.kind == "limited":
             asked = start_force_ratio(pull, np.where(pulls, most, 1.0), mass)

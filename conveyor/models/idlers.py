@@ -69,7 +69,7 @@ class IdlerSet(Model):
     offset: Annotated[Length, Bounds(ge="0 m", le="2 m")] = quantity("0 m")
     """Distance along the belt of the plane of the middle rolls from that of the outer ones; the loads stay."""
     tilt_angle: Annotated[Angle, Bounds(ge="0 deg", le="5 deg")] = quantity("0 deg")
-    """Forward tilt of the outer rolls."""
+    """Forward tilt of the outer rolls; not of a single roll."""
     misalignment: Annotated[Angle, Bounds(ge="0 deg", le="5 deg")] | None = None
     """Standard deviation of the angles of the sets' axes from square to the belt; that of site without it."""
     sag: Annotated[Fraction, Bounds(gt="0 %", le="5 %")] = quantity("1 %")
@@ -171,6 +171,9 @@ class IdlerSet(Model):
                     "set trough_angle to 0 deg or rolls to 2, 3 or 5",
                 )
             )
+        if self.rolls == 1 and si(self.tilt_angle) != 0.0:
+            message = f"got {text(self.tilt_angle)} with rolls: 1, but only wings tilt forward; remove it"
+            problems.append(Problem(("tilt_angle",), message))
         problems += self._inner_problems()
         if self.middle_roll is not None and self.rolls not in {3, 5}:
             problems.append(

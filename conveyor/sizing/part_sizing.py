@@ -287,10 +287,8 @@ def _take_up_setting(before: float, loads: Sequence[CalculatedConveyor]) -> floa
 
 
 def _required_strength(carcass: CarcassClass, choice: DesignChoice, loads: Sequence[CalculatedConveyor]) -> float:
-    """Belt strength required by the tensions [N/m]; of a class with a rating also while starting and stopping."""
-    tension = highest_tension(loads)
-    if carcass.rating is not None:
-        tension = max(tension, max(one.belt_duty.largest for one in loads) / RATED_START)
+    """Belt strength required by the tensions in steady running, starting and stopping [N/m]."""
+    tension = max(highest_tension(loads), max(one.belt_duty.largest for one in loads) / RATED_START)
     return carcass.safety * tension / choice.trough.width.belt
 
 

@@ -365,7 +365,7 @@ def _estimate_loop(
     asked, last = weak.sum(axis=1), series.last[kind]
     strength *= levels.uses.get("belt strength", 1.0) / series.strongest[kind]
     travel = travel * (mean / width / series.stiffest[kind] + lasting)
-    sets = np.array([(belt + task.lump_factor * bulk) * g * carry, spans[1]]).T
+    sets = np.array([task.lump_factor * (belt + bulk) * g * carry, spans[1]]).T
     chosen = np.minimum(asked, last)
     return _LoopEstimate(covers, middle, sets, indentation.T, force, design_force, slack, chosen, strength, travel)
 

@@ -76,6 +76,12 @@ def test_lumps_say_the_factor_where_none_is_given():
     factors = {lump: {duty.limits.lump_factor for duty in of(lump).set_duty} for lump in ("0.3 m", "0.5 m", "0.6 m")}
     assert factors == {"0.3 m": {1.1}, "0.5 m": {1.2}, "0.6 m": {None}}
     assert {duty.limits.lump_factor for duty in of("0.6 m", lump_factor=1.4).set_duty} == {1.4}
+    first, bulk = (
+        of("0.3 m").set_duty[0],
+        1200 / 3.6 / 4.0,
+    )  # Sandvik's factor is of belt and bulk, CEMA's of bulk alone
+    along = 9.81 * 1.2 * math.cos(first.stretch.inclination)
+    assert first.limits.load == pytest.approx(1.1 * (20.0 + bulk) * along, rel=1e-9)
     check = only(set_rating(of("0.6 m")))
     assert (check.verdict, check.required) == ("not checked", None)
 

@@ -218,7 +218,7 @@ def test_downhill_with_brakes_no_loading_calculated_in_full_is_worse():
         "plant",
     )
     (slip,) = (c for (key, _), c in governing.items() if key == "bulk_slip_stopping")
-    assert slip.calculated == pytest.approx(1.501, abs=0.0005)
+    assert slip.calculated == pytest.approx(1.580, abs=0.0005)  # 1.501 at the least friction alone
 
 
 def test_of_criteria_without_anything_there_the_one_that_needs_most_governs():

@@ -160,7 +160,7 @@ def idler_tilt_resistance(
     Parameters
     ----------
     tilt_coefficient : float
-        C_e [-], at least 0: 0.4 at a trough angle of 30 deg, 0.5 at 45 deg.
+        C_e [-], at least 0: 0.4 at a trough angle of 30 deg, 0.5 at 45 deg; of two rolls in a V cos λ.
     roll_friction : float
         μ0, roll on belt [-], at least 0; default of the craft `ROLL_ON_BELT_FRICTION`, general knowledge.
     length : float

@@ -5,7 +5,10 @@ Source: ISO 5048.
 
 from __future__ import annotations
 
-from conveyor.arguments.limits import require, require_not_negative, require_positive
+import math
+
+from conveyor.arguments.limits import require, require_not_negative, require_positive, require_slope
+from conveyor.errors import NoSolutionError
 
 
 def _require_speeds(belt_speed: float, initial_speed: float) -> None:
@@ -46,8 +49,12 @@ def acceleration_resistance(mass_flow: float, *, belt_speed: float, initial_spee
     return mass_flow * (belt_speed - initial_speed)
 
 
-def acceleration_length(*, belt_speed: float, initial_speed: float, belt_friction: float, gravity: float) -> float:
-    """Length over which the bulk reaches the belt speed, l_b = (v² - v0²)/(2 g μ1) (ISO 5048).
+def acceleration_length(
+    *, belt_speed: float, initial_speed: float, belt_friction: float, gravity: float, inclination: float = 0.0
+) -> float:
+    """Length over which the bulk reaches the belt speed, l_b = (v² - v0²)/(2 g (μ1 cos δ - sin δ)).
+
+    ISO 5048 has it for a level belt (δ = 0); the slope is derived (Newton).
 
     Parameters
     ----------
@@ -59,6 +66,8 @@ def acceleration_length(*, belt_speed: float, initial_speed: float, belt_frictio
         μ1, bulk on belt [-], positive.
     gravity : float
         g [m/s²], positive.
+    inclination : float
+        δ of the belt there, positive uphill [rad], between -pi/2 and pi/2.
 
     Returns
     -------
@@ -69,6 +78,8 @@ def acceleration_length(*, belt_speed: float, initial_speed: float, belt_frictio
     ------
     InputError
         An argument is outside its range.
+    NoSolutionError
+        The belt is so steep that the bulk never reaches its speed.
 
     Examples
     --------
@@ -77,7 +88,11 @@ def acceleration_length(*, belt_speed: float, initial_speed: float, belt_frictio
     """
     _require_speeds(belt_speed, initial_speed)
     require_positive(belt_friction=belt_friction, gravity=gravity)
-    return (belt_speed**2 - initial_speed**2) / (2.0 * gravity * belt_friction)
+    require_slope(inclination=inclination)
+    pull = belt_friction * math.cos(inclination) - math.sin(inclination)
+    if pull <= 0.0:
+        raise NoSolutionError("the belt is too steep for its friction: bulk that lands on it slides back")
+    return (belt_speed**2 - initial_speed**2) / (2.0 * gravity * pull)
 
 
 def skirt_resistance(

@@ -65,6 +65,7 @@ def start_stop_table(a: CalculatedConveyor) -> Table:
     ]  # fmt: skip
     for label, stop in (
         ("drives off", moving.coasting),
+        ("drives off, design friction", None if a.line.design_friction == 1.0 else moving.coasting_design),
         ("drives off, least friction", moving.coasting_least),
         ("brakes on, least friction", moving.braked),
     ):
