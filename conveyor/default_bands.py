@@ -307,8 +307,9 @@ class PowerRange:
         90 % band of the friction over the computed one [-]: of every force but lift and acceleration of the bulk.
     design_friction, design : float
         Friction that motors, belt, grip and take-up are designed for, over the computed one [-]; the power with it [W].
-    design_given : bool
-        True if the spec gives that friction; else it is the upper end of the band.
+        The least that is certain where the motors hold more with it than they give with the highest.
+    design_source : str
+        Where that friction comes from.
     untested : tuple of Message
         Rubbers without rolling-resistance tests at the belt's temperature.
     """
@@ -320,7 +321,7 @@ class PowerRange:
     friction: tuple[float, float] = (1.0, 1.0)
     design_friction: float = 1.0
     design: float = 0.0
-    design_given: bool = False
+    design_source: str = ""
     untested: tuple[Message, ...] = ()
 
 
@@ -357,10 +358,19 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
     friction = _combined_band(settled, [forces for _, _, forces in changes])
     low, high = sorted(map(motor, map(settled.resistance, friction)))
     return PowerRange(
-        motor(settled.force), low, high, tuple(effects), friction,
-        result.line.design_friction, motor(settled.design_force), result.conveyor.drive.design_friction is not None,
+        motor(settled.force), low, high, tuple(effects), friction, *_power_to_design_for(result),
         tuple(_untested_rubbers(result)),
     )  # fmt: skip
+
+
+def _power_to_design_for(result: CalculatedConveyor) -> tuple[float, float, str]:
+    """Friction over the computed one [-] with which the motors give or hold most, that power [W] and its source."""
+    line, settled, motor = result.line, result.balance.settled, result.balance.frame.motor
+    most, least = motor(settled.design_force), motor(settled.least_force)
+    if abs(least) > abs(most):
+        return line.least_friction, least, "the least that is certain"
+    given = result.conveyor.drive.design_friction is not None
+    return line.design_friction, most, "drive.design_friction" if given else "the upper end of the band"
 
 
 def friction_band(result: CalculatedConveyor) -> tuple[float, float]:

@@ -115,10 +115,12 @@ def holding_brake(result: CalculatedConveyor) -> Iterator[Check]:
     given = any(drive.brake is not None for drive in line.drives)
     brakes = math.fsum(line.brakes)
     if moving.brake_to_hold > 0.0:
-        what = "backstop" if moving.rolls_back else "brake"
         bear = _backstop_forces(line) if moving.rolls_back else ()
-        known = given or bool(bear)
+        blind = moving.rolls_back and not bear and any(drive.backstop is True for drive in line.drives)
+        what = "backstop" if moving.rolls_back and (bear or blind or not given) else "brake"
+        known = (given and not blind) or bool(bear)
         none = "no brake and no backstop torque given" if moving.rolls_back else "no brake given"
+        none = "torque of the backstop not given" if blind else none
         made = check_against_limit(
             "holding_brake", f"holding {what}, loaded belt", math.fsum((brakes, *bear)), "at least",
             moving.brake_to_hold, "force", wording=None if known else message(none),

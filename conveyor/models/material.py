@@ -20,9 +20,9 @@ class BulkMaterial(LibraryItem):
 
     name: Name
     """What it is called in reports."""
-    density: Annotated[Density, Bounds(gt="0 kg/m^3", le="20000 kg/m^3")]
+    density: Annotated[Density, Bounds(ge="10 kg/m^3", le="20000 kg/m^3")]
     """Bulk density, loose: the flow over it fills the belt's cross-section."""
-    weight_density: Annotated[Density, Bounds(gt="0 kg/m^3", le="20000 kg/m^3")] | None = None
+    weight_density: Annotated[Density, Bounds(ge="10 kg/m^3", le="20000 kg/m^3")] | None = None
     """Bulk density at its heaviest, for flooded belt, heavy bulk, lumps and wear; density without."""
     flow: Annotated[MassFlow, Bounds(ge="0 t/h", le="200000 t/h")]
     """Mass flow; 0 is the empty belt."""

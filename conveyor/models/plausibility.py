@@ -5,6 +5,7 @@ Bounds lie well outside what is in use; where no source is named they are genera
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Final
 
@@ -24,6 +25,9 @@ WIDEST_SET: Final = 1.5
 """Rolls of a set side by side over the belt's width [-]; at most 1.25 in the lists after ISO 1537 and DIN 22107."""
 POOREST_DRIVE: Final = 0.5
 """Efficiency from motor to belt [-]; that of a worm gear."""
+HEAVIEST_ROLL: Final = 0.5
+"""Rotating mass of a roll over that of a solid steel one of its size [-]; of shells in lists 0.15 to 0.3."""
+_STEEL: Final = 7850.0  # [kg/m³]
 CARCASS_MASS_RATIO: Final = (0.5, 1.4)
 """Mass of a carcass over that of `laws.sizing.carcass_mass` [-]; of belts in lists and examples 0.65 to 1.2."""
 
@@ -96,6 +100,13 @@ def _check_sets(conveyor: Conveyor) -> Iterator[Message]:
                 f"idlers.{strand}: {idlers.rolls} x {text(idlers.roll.length)} side by side are {{}} times as wide as "
                 "the belt, listed sets at most 1.25 times (ISO 1537, DIN 22107): rolls of a wider belt?",
                 (side_by_side / width, "safety"),
+            )
+        solid = _STEEL * 0.25 * math.pi * si(idlers.roll.diameter) ** 2 * si(idlers.roll.length)
+        mass = idlers.roll.rotating_mass
+        if mass is not None and si(mass) > HEAVIEST_ROLL * solid:
+            yield message(
+                f"idlers.{strand}.roll.rotating_mass {text(mass)}: a solid steel roll of its size has {{}}; look again",
+                (solid, "mass"),
             )
         rotation = roll_rotation(speed, roll_diameter=si(idlers.roll.diameter))
         if rotation > 1.01 * FASTEST_ROLL:

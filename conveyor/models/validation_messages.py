@@ -72,8 +72,14 @@ def error_message(item: dict[str, Any], model: type[BaseModel]) -> str:
         sign, key = _LIMITS[kind]
         return f"got {shown_value(given)}, allowed: {sign} {context[key]:g}"
     if kind in _EXPECTED_TYPES:
-        return f"expected {_EXPECTED_TYPES[kind]}, got {shown_value(given)}"
+        return f"expected {_EXPECTED_TYPES[kind]}, got {shown_value(given)}{_share_as_number(given)}"
     return f"got {shown_value(given)}: {item['msg']}"
+
+
+def _share_as_number(given: Any) -> str:
+    """The number that a percentage means, where a field takes numbers alone."""
+    share = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*%\s*", given) if isinstance(given, str) else None
+    return "" if share is None else f"; write {float(share[1]) / 100.0:.12g}"
 
 
 def _closest_word(given: Any, expected: str) -> str:

@@ -40,6 +40,10 @@ from conveyor.units.sentences import Message, escape_braces, message, percent
 
 LEAST_PUBLISHED_FRICTION: Final = 0.0075
 """Friction factor measured over six shifts on Henderson PC2, 16.28 km (Alspaugh, MINExpo 2004) [-]."""
+LEAST_FILLING: Final = 0.01
+"""Share of the section that the belt holds to its edges below which a unit may be wrong [-]; general knowledge."""
+LARGEST_MOTORS: Final = 20.0
+"""Installed power over that asked for above which a unit may be wrong [-]; general knowledge."""
 
 
 def analysis_warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Message, ...]:
@@ -58,6 +62,7 @@ def analysis_warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> t
                 *_omission_warnings(result),
                 *_tripper_warnings(result.line),
                 *_calibration_warnings(conveyor),
+                *_size_warnings(result),
                 *_drive_warnings(result),
                 *_slack_side_warnings(result),
                 *(
@@ -243,6 +248,25 @@ def _calibration_warnings(conveyor: Conveyor) -> Iterator[Message]:
     yield message(
         f"calculation.calibration: {factors} ({source}) in forces, tensions and power, not in figures of single rolls"
     )
+
+
+def _size_warnings(result: CalculatedConveyor) -> Iterator[Message]:
+    """A flow far too small for the belt, and motors far too large for the conveyor."""
+    conveyor, line, motor = result.conveyor, result.line, result.balance.frame.motor
+    share = line.flow / (line.speed * line.density * conveyor.flooded_section)
+    if 0.0 < share < LEAST_FILLING:
+        yield message(
+            f"material.flow {text(conveyor.material.flow)} takes {percent(share, 2)} of what the belt holds to its "
+            "edges: its unit?"
+        )
+    powers = [drive.power for drive in line.drives if drive.power is not None]
+    asked = max(abs(motor(force)) for force in result.drive_forces)
+    if len(powers) == len(line.drives) and math.fsum(powers) > LARGEST_MOTORS * asked > 0.0:
+        yield message(
+            f"drive.installed_power: {{}} are {math.fsum(powers) / asked:.0f} times what the conveyor takes or gives: "
+            "its unit?",
+            (math.fsum(powers), "power"),
+        )
 
 
 def _drive_warnings(result: CalculatedConveyor) -> Iterator[Message]:

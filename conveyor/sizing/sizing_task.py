@@ -9,7 +9,13 @@ from functools import cached_property
 from typing import Any, Final
 
 from conveyor.files import libraries
-from conveyor.laws.belt_strength import CEMA_PULLEYS, PULLEY_DIAMETERS, next_pulley_diameter, pulley_group_diameter
+from conveyor.laws.belt_strength import (
+    CEMA_PULLEYS,
+    PULLEY_DIAMETERS,
+    Group,
+    next_pulley_diameter,
+    pulley_group_diameter,
+)
 from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
 from conveyor.laws.loading import cross_section, filled_width, usable_width
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
@@ -456,9 +462,14 @@ class SizingTask:
         """Diameter of a drive pulley [m]: the next of the series; beyond it the carcass's least."""
         return self._pulley_diameter(carcass.least_pulley)
 
+    @property
+    def bend_group(self) -> Group:
+        """Group of tail and take-up pulleys: a belt that falls may bear its highest tension there."""
+        return "A" if math.fsum(rise for _, rise in self.sections) < 0.0 else "B"
+
     def bend_diameter(self, carcass: CarcassClass) -> float:
         """Diameter of tail and take-up pulleys [m], likewise."""
-        return self._pulley_diameter(pulley_group_diameter(carcass.least_pulley, group="B"))
+        return self._pulley_diameter(pulley_group_diameter(carcass.least_pulley, group=self.bend_group))
 
     def _pulley_diameter(self, least: float) -> float:
         series = CEMA_PULLEYS if self.duty.series == "US" else PULLEY_DIAMETERS

@@ -8,12 +8,15 @@ import pytest
 
 from conveyor.checks.belt_checks import belt_safety
 from conveyor.checks.bulk_checks import bulk_slip, skirtboards
-from conveyor.checks.drive_checks import coasting_time
+from conveyor.checks.drive_checks import coasting_time, holding_brake
 from conveyor.checks.idler_checks import roll_life
 from conveyor.checks.pulley_checks import pulley_diameter
+from conveyor.default_bands import power_range
 from conveyor.errors import InputError
 from conveyor.laws.drives import backstop_torque
-from tests.loop.loop_lines import DATA, DOWN, SECOND
+from conveyor.pipeline import calculate
+from conveyor.spec import load
+from tests.loop.loop_lines import DATA, DOWN, SECOND, SPECS
 from tests.loop.test_pulley_duty import calculated
 
 PARTS = {"pulley_diameter": "1 m", "motor_speed": "1480 rpm", "torque_factor": 1.6}
@@ -149,3 +152,26 @@ def test_a_single_roll_has_no_wings_to_tilt():
     back = DATA["idlers"]["return"] | {"tilt_angle": "1 deg"}
     with pytest.raises(InputError, match=r"idlers\.return\.tilt_angle: got 1 deg with rolls: 1"):
         calculated(idlers=DATA["idlers"] | {"return": back})
+
+
+def test_motors_that_hold_a_falling_belt_are_designed_for_the_least_friction():
+    """The less friction, the more they hold."""
+    falling, level = (calculate(load(SPECS / name)) for name in ("downhill.yaml", "in_plant_us.yaml"))
+    motor, settled, designed = falling.balance.frame.motor, falling.balance.settled, power_range(falling)
+    assert designed.design == pytest.approx(motor(settled.least_force), rel=1e-12)
+    assert designed.design < motor(settled.design_force) < 0.0
+    assert designed.design_friction == falling.line.least_friction
+    climbing = level.balance
+    assert power_range(level).design == pytest.approx(climbing.frame.motor(climbing.settled.design_force), rel=1e-12)
+
+
+def test_a_backstop_without_its_torque_is_not_judged_by_the_brakes():
+    def holding(**given):
+        (check,) = [check for check in holding_brake(calculated(**drive(**given))) if check.key == "holding_brake"]
+        return check.subject.text(), check.verdict
+
+    assert holding(backstop=True, brake_force="1 kN") == ("holding backstop, loaded belt", "not checked")
+    assert holding(brake_force="1 kN") == ("holding brake, loaded belt", "FAIL")
+    assert holding() == ("holding backstop, loaded belt", "not checked")
+    torque = {"backstop_torque": "100 kN*m", "pulley_diameter": "1 m"}
+    assert holding(brake_force="1 kN", **torque) == ("holding backstop, loaded belt", "pass")

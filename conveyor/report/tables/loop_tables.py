@@ -133,7 +133,7 @@ def take_up_table(a: CalculatedConveyor, asks: tuple[TakeUpDuty, Message]) -> Ta
         Figure("required setting", "force", duty.needed, key="least_setting"),
         Figure("mean tension of the loop", "force", mean, key="mean_tension"),
         Figure("strands at the take-up", "count", float(duty.unit.strands), key="strands"),
-        Figure("mass of a gravity take-up", "mass", mass, key="mass"),
+        Figure("mass of a gravity take-up, with pulley and carriage", "mass", mass, key="mass"),
         Figure("pull on the rope of a winch", "force", None if mass is None else mass * a.line.gravity, key="pull"),
         Figure("force of each of two screws", "force", screws),
         Figure("carriage speed through a start", "speed", duty.speed if winch else None),

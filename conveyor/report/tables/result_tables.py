@@ -98,8 +98,7 @@ def default_table(left_open: PowerRange, system: System) -> Table:
 
 def _design_friction_text(power: PowerRange) -> str:
     """Friction to design for over the computed one, and where it comes from."""
-    source = "drive.design_friction" if power.design_given else "the upper end of the band"
-    return f"{power.design_friction:.3g} times the expected friction, {source}"
+    return f"{power.design_friction:.3g} times the expected friction, {power.design_source}"
 
 
 def _power_range_text(power: PowerRange, system: System) -> str:
