@@ -67,6 +67,8 @@ def comparison_notes(comparison: CalculatedComparison, system: System = "SI") ->
         *_untested_notes(comparison),
         *_strain_notes(comparison),
         *_calibration_notes(comparison),
+        "power is compared at the take-up that the expected friction asks for; conveyor power sets it for the friction "
+        "to design for, which holds the belt tauter: its power differs by up to a per cent",
     ]
     for compound in comparison.compounds:
         if compound.kind == "illustrative":
