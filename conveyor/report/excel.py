@@ -15,11 +15,11 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 from openpyxl import Workbook
 from openpyxl.worksheet.worksheet import Worksheet
-from openpyxl.writer.excel import ExcelWriter
 
 from conveyor.errors import InputError
 from conveyor.files import output_marks
 from conveyor.files.atomic_write import check_writable, name_write_errors, save_files
+from conveyor.files.workbook_bytes import workbook_bytes
 from conveyor.report import sheets, summary_sheet
 from conveyor.report.cells import cell_text
 from conveyor.report.sheet_paper import set_up_print
@@ -122,15 +122,14 @@ def workbook_files(contents: Contents, path: Path) -> dict[Path, bytes]:
     """Contents of the files of a report, by path: the workbook, and the tables too long for it."""
     live: dict[tuple[str, str], float | str] = {}
     with _pause_collector():
-        book, content = build_workbook(contents, path.stem, live), BytesIO()
+        book = build_workbook(contents, path.stem, live)
         book.properties.modified = datetime.now(UTC).replace(tzinfo=None)
-        # as `book.save`, which goes by way of temporary files and leaves the archive open where one cannot be written
-        with name_write_errors(path), ZipFile(content, "w", ZIP_DEFLATED) as archive:
-            ExcelWriter(book, archive).save()
+        with name_write_errors(path):
+            content = workbook_bytes(book)
     long = [part for part in contents.tables if len(part.rows) > MOST_ROWS]
     beside = {path.with_name(long_table_file(path.stem, part)): csv_bytes(part.frame(contents.system)) for part in long}
     values = {(book.sheetnames.index(sheet) + 1, cell): value for (sheet, cell), value in live.items()}
-    return beside | {path: add_formula_values(content.getvalue(), values)}
+    return beside | {path: add_formula_values(content, values)}
 
 
 @contextmanager

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from io import BytesIO
 from pathlib import Path
 from typing import Final
 
@@ -17,6 +16,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from conveyor.arguments.argument_types import check_arguments
 from conveyor.files.atomic_write import check_writable, name_write_errors, save_files
 from conveyor.files.output_marks import program_version
+from conveyor.files.workbook_bytes import workbook_bytes
 from conveyor.forms.form_fields import FormField
 from conveyor.forms.maker_list_reader import COLUMNS_SHEET, LIST_FORMS
 from conveyor.models.maker_lists import MakerKind
@@ -95,9 +95,7 @@ def maker_list_form() -> bytes:
     explained.freeze_panes = "A5"
     _fit_width(explained)
     book.properties.creator = program_version()
-    content = BytesIO()
-    book.save(content)
-    return content.getvalue()
+    return workbook_bytes(book)
 
 
 def _fit_width(sheet: Worksheet) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from io import BytesIO
 from pathlib import Path
 from typing import Final
 
@@ -12,6 +11,7 @@ from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import InputError
 from conveyor.files import output_marks
 from conveyor.files.atomic_write import check_writable, name_write_errors, save_files
+from conveyor.files.workbook_bytes import workbook_bytes
 from conveyor.forms.form_reader import read_form
 from conveyor.models import Conveyor
 from conveyor.report.cells import cell_text
@@ -97,9 +97,7 @@ def _workbook_bytes(conveyor: Conveyor, shelves: tuple[str | Path, ...]) -> byte
     )
     drawn.properties.title = cell_text(conveyor.name)
     drawn.properties.creator = output_marks.program_version()
-    content = BytesIO()
-    drawn.save(content)
-    return content.getvalue()
+    return workbook_bytes(drawn)
 
 
 def _check_round_trip(content: bytes, conveyor: Conveyor, shelves: tuple[str | Path, ...]) -> None:
