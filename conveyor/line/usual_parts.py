@@ -13,6 +13,7 @@ from conveyor.errors import RangeError
 from conveyor.laws.idler_sets import lump_load_factor
 from conveyor.laws.resistance.cema import FOOT, POUND_FORCE, SEALS_PER_FOOT
 from conveyor.laws.tension import PULLEY_FACTOR
+from conveyor.line.optional_quantities import si_or_default
 from conveyor.models import Cleaner, Conveyor, Feeding, Pulley
 from conveyor.units import from_si, quantity, si
 
@@ -51,25 +52,36 @@ def route_cleaners(conveyor: Conveyor) -> tuple[tuple[Cleaner, ...], bool]:
 
 
 def route_pulleys(conveyor: Conveyor) -> tuple[tuple[Pulley, ...], bool]:
-    """Pulleys of the route, or massless end pulleys of least diameter (other carcasses as EP); True if assumed."""
+    """Pulleys of the route, or massless end pulleys, driven ones as their drive says; True if assumed."""
     given = conveyor.route.pulleys
     if given or not _uses_usual_values(conveyor):
         return given, False
+    return tuple(_usual_pulley(end, end, _end_diameter(conveyor, end)) for end in ("head", "tail")), True
+
+
+def _end_diameter(conveyor: Conveyor, end: str) -> float:
+    """Diameter of the pulley at head or tail [m]: that of a drive there where given, else the least."""
+    drives = (drive for drive in conveyor.drive.pulleys if drive.position == end)
+    given = next((drive.pulley_diameter for drive in drives if drive.pulley_diameter is not None), None)
+    return si_or_default(given, _least_diameter(conveyor))
+
+
+def _least_diameter(conveyor: Conveyor) -> float:
+    """Least diameter of a drive pulley that the carcass bears [m]; other carcasses as EP."""
     carcass = conveyor.belt.carcass
     factor = next((c for kind, c in PULLEY_FACTOR.items() if kind == carcass.kind), PULLEY_FACTOR["EP"])
-    diameter = factor * si(carcass.thickness)
-    usual = tuple(
-        Pulley.model_construct(  # unvalidated: a 50 mm carcass needs more than the largest pulley
-            name=end,
-            position=end,
-            diameter=from_si(diameter, "length"),
-            shaft_diameter=from_si(SHAFT_DIAMETER_RATIO * diameter, "length"),
-            mass=from_si(0.0, "mass"),
-            section=None,
-        )
-        for end in ("head", "tail")
+    return factor * si(carcass.thickness)
+
+
+def _usual_pulley(name: str, position: str, diameter: float) -> Pulley:
+    return Pulley.model_construct(  # unvalidated: a 50 mm carcass needs more than the largest pulley
+        name=name,
+        position=position,
+        diameter=from_si(diameter, "length"),
+        shaft_diameter=from_si(SHAFT_DIAMETER_RATIO * diameter, "length"),
+        mass=from_si(0.0, "mass"),
+        section=None,
     )
-    return usual, True
 
 
 def _uses_usual_values(conveyor: Conveyor) -> bool:

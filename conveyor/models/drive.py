@@ -65,7 +65,7 @@ class DrivePulley(Model):
     gear_ratio: Annotated[Number, Field(gt=0, le=1000)] | None = None
     """Speed of the motor over that of the pulley, i; needed beside inertia."""
     pulley_diameter: Annotated[Length, Bounds(gt="0 m", le="5 m")] | None = None
-    """Diameter of its pulley, for torques and inertia; without it that of route.pulleys at its place."""
+    """Diameter of its pulley, for torques, inertia and, without route.pulleys, its wrap; else that in route.pulleys."""
     starter: Starter | None = None
     """How its motors are started, for scenarios; led by an inverter without it, or direct where drive has a torque
     curve or factor and no start factor."""

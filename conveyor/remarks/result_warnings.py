@@ -206,9 +206,9 @@ def _omission_warnings(result: CalculatedConveyor) -> Iterator[Message]:
             yield message("route.pulleys not given: wraps and pulley bearings not included")
         elif line.pulleys[0].assumed:
             yield message(
-                "route.pulleys not given: a head and a tail pulley of {} assumed, the least the carcass bears (general "
-                "knowledge)",
-                (line.pulleys[0].diameter, "thickness"),
+                "route.pulleys not given: a head pulley of {} and a tail pulley of {} assumed, the least the carcass "
+                "bears where no drive gives its pulley_diameter (general knowledge)",
+                *((pulley.diameter, "thickness") for pulley in line.pulleys),
             )
         elif line.belt.steel_cord:
             yield message("wrap of a steel-cord belt: coefficients are general knowledge, not read in the standard")
