@@ -264,7 +264,7 @@ DEFAULTS: Final = (
                 "tests of the belt itself", _INDENTATION, _tested_share, _tests_band),
     DefaultBand("bending_loss", "loss of the carcass that bends, 0", 1.0, 1.0, "belt.carcass.bending_loss",
                 _INDENTATION, _bending_share, _bending_band),
-    DefaultBand("pulleys", "usual head and tail pulleys", 1.0, 1.0, "route.pulleys",
+    DefaultBand("pulleys", "usual pulleys", 1.0, 1.0, "route.pulleys",
                 _PULLEYS, _usual_part_share, _pulleys_band),
     DefaultBand("cover", "make of the covers, others of their kind", *COVERS_OF_A_KIND, "compounds measured and tested",
                 _INDENTATION, _illustrative_share),

@@ -1,15 +1,17 @@
-"""Usual parts where the spec gives none: a loading point, cleaners, end pulleys.
+"""Usual parts where the spec gives none: a loading point, cleaners, pulleys.
 
 Figures are those of the worked example of ISO 5048 (skirts as long as the belt runs in a second and 0.625 of its width
 apart, blades of the belt's width and 8 mm, half-turn wraps), bulk that lands without speed, seals of the skirts as CEMA
-has them (they rub on the empty belt too), and general knowledge (two cleaners, shafts of a fifth of the pulley).
+has them (they rub on the empty belt too), and general knowledge (two cleaners, shafts of a fifth of the pulley, a
+take-up pulley between two bends).
 """
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, Literal
 
 from conveyor.errors import RangeError
+from conveyor.laws.belt_strength import pulley_group_diameter
 from conveyor.laws.idler_sets import lump_load_factor
 from conveyor.laws.resistance.cema import FOOT, POUND_FORCE, SEALS_PER_FOOT
 from conveyor.laws.tension import PULLEY_FACTOR
@@ -23,6 +25,10 @@ CLEANER_COUNT: Final = 2  # general knowledge: one at the head pulley, one behin
 CLEANER_THICKNESS: Final = "8 mm"  # worked example of ISO 5048
 SKIRT_SEALS: Final = SEALS_PER_FOOT.value * POUND_FORCE / FOOT  # [N/m] of skirt, both sides; CEMA
 SHAFT_DIAMETER_RATIO: Final = 0.2  # [-], general knowledge: over the pulley's diameter
+_Place = Literal["head", "take-up", "tail"]
+_ENDS: Final[tuple[Literal["head", "tail"], ...]] = ("head", "tail")
+_LOOP_KINDS: Final = frozenset({"gravity", "winch", "locked winch"})  # general knowledge: with pulleys of their own
+_TAKE_UP_WRAPS: Final = {"bend 1": "90 deg", "take-up": "180 deg", "bend 2": "90 deg"}  # general knowledge
 
 
 def route_feeding_points(conveyor: Conveyor) -> tuple[tuple[Feeding, ...], bool]:
@@ -52,11 +58,25 @@ def route_cleaners(conveyor: Conveyor) -> tuple[tuple[Cleaner, ...], bool]:
 
 
 def route_pulleys(conveyor: Conveyor) -> tuple[tuple[Pulley, ...], bool]:
-    """Pulleys of the route, or massless end pulleys, driven ones as their drive says; True if assumed."""
+    """Pulleys of the route, or massless usual ones; True if assumed.
+
+    End pulleys, at a drive of its diameter; the pulley of a take-up that hangs or is pulled in the belt's loop, and its
+    two bends. A take-up at the tail, a screw or a fixed carriage moves the tail pulley itself.
+    """
     given = conveyor.route.pulleys
     if given or not _uses_usual_values(conveyor):
         return given, False
-    return tuple(_usual_pulley(end, end, _end_diameter(conveyor, end)) for end in ("head", "tail")), True
+    head, tail = (_usual_pulley(end, end, _end_diameter(conveyor, end)) for end in _ENDS)
+    return (head, *_take_up_pulleys(conveyor), tail), True
+
+
+def _take_up_pulleys(conveyor: Conveyor) -> tuple[Pulley, ...]:
+    """Pulley of the take-up and its bends, of the least diameter of their group; none where it moves the tail."""
+    take_up = conveyor.route.take_up
+    if take_up is None or take_up.kind not in _LOOP_KINDS or take_up.position == "tail":
+        return ()
+    diameter = pulley_group_diameter(_least_diameter(conveyor), group="B")
+    return tuple(_usual_pulley(name, "take-up", diameter, wrap) for name, wrap in _TAKE_UP_WRAPS.items())
 
 
 def _end_diameter(conveyor: Conveyor, end: str) -> float:
@@ -73,7 +93,7 @@ def _least_diameter(conveyor: Conveyor) -> float:
     return factor * si(carcass.thickness)
 
 
-def _usual_pulley(name: str, position: str, diameter: float) -> Pulley:
+def _usual_pulley(name: str, position: _Place, diameter: float, wrap: str = "180 deg") -> Pulley:
     return Pulley.model_construct(  # unvalidated: a 50 mm carcass needs more than the largest pulley
         name=name,
         position=position,
@@ -81,6 +101,7 @@ def _usual_pulley(name: str, position: str, diameter: float) -> Pulley:
         shaft_diameter=from_si(SHAFT_DIAMETER_RATIO * diameter, "length"),
         mass=from_si(0.0, "mass"),
         section=None,
+        wrap_angle=quantity(wrap),
     )
 
 

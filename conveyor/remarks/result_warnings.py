@@ -199,17 +199,24 @@ def _contact_warnings(result: CalculatedConveyor) -> Iterator[Message]:
         )
 
 
+def _usual_pulleys_message(line: Line) -> Message:
+    """Message on the pulleys assumed where the spec gives none."""
+    diameters = dict.fromkeys((pulley.position, (pulley.diameter, "thickness")) for pulley in line.pulleys)
+    at_take_up = "" if len(diameters) == 2 else ", at the take-up a pulley and two bends of {},"
+    return message(
+        f"route.pulleys not given: a head pulley of {{}}{at_take_up} and a tail pulley of {{}} assumed, the least the "
+        "carcass bears where no drive gives its pulley_diameter (general knowledge)",
+        *(diameter for _, diameter in diameters),
+    )
+
+
 def _omission_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     line = result.line
     if line.secondary == "itemised":
         if not line.pulleys:
             yield message("route.pulleys not given: wraps and pulley bearings not included")
         elif line.pulleys[0].assumed:
-            yield message(
-                "route.pulleys not given: a head pulley of {} and a tail pulley of {} assumed, the least the carcass "
-                "bears where no drive gives its pulley_diameter (general knowledge)",
-                *((pulley.diameter, "thickness") for pulley in line.pulleys),
-            )
+            yield _usual_pulleys_message(line)
         elif line.belt.steel_cord:
             yield message("wrap of a steel-cord belt: coefficients are general knowledge, not read in the standard")
         if not line.loading and line.flow > 0.0:
