@@ -214,8 +214,8 @@ class ListedPart:
 class ListedParts:
     """Items chosen for pulleys and drives; empty or None where a kind is not listed.
 
-    `pulleys`: head, take-up, tail; `gearbox`, `coupling`: of every motor; `backstop`, `brake`: of the first drive;
-    `drive_diameter` [m]; `speed`: of the belt [m/s].
+    `pulleys`: head, take-up (its bends alike), tail; `gearbox`, `coupling`: of every motor; `backstop`, `brake`: of
+    the first drive; `drive_diameter` [m]; `speed`: of the belt [m/s].
     """
 
     drive_diameter: float

@@ -21,6 +21,19 @@ from conveyor.units import from_si, text
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
 
 
+_PULLEYS: Final = tuple(
+    (place, {"name": name, "position": place} | wrapped)
+    for name, place, wrapped in (
+        ("head", "head", {}),
+        ("bend 1", "take-up", {"wrap_angle": "90 deg"}),
+        ("take-up", "take-up", {}),
+        ("bend 2", "take-up", {"wrap_angle": "90 deg"}),
+        ("tail", "tail", {}),
+    )
+)
+"""Place, name and wrap of every pulley: the take-up hangs in the belt's loop between two bends."""
+
+
 _UNIT_KINDS: Final = {"m": "length", "mm": "thickness", "m/s": "speed", "deg": "angle", "kW": "power",
 "N/mm": "line force",
                  "PIW": "line force", "kN": "force", "kN*m": "torque", "kg": "mass", "kg/m^2": "area mass"}  # fmt: skip
@@ -112,22 +125,21 @@ def _belt_fields(task: SizingTask, carcass: CarcassClass) -> dict[str, Any]:
 
 
 def _all_pulleys(task: SizingTask, choice: DesignChoice, chosen: SelectedParts) -> list[dict[str, Any]]:
-    """Pulleys of head, take-up and tail, of the lists or the series."""
+    """Pulleys of head, take-up with its bends, and tail, of the lists or the series."""
     if chosen.listed is not None and chosen.listed.pulleys:
+        items = {one.place: one.item for one in chosen.listed.pulleys}
         return [
-            {"name": one.place, "position": one.place, "listed": one.item}
-            | ({"bearing_life": text(task.rules.roll_life)} if "bearing_rating" in one.item.fields else {})
-            for one in chosen.listed.pulleys
+            {**placed, "listed": items[place]}
+            | ({"bearing_life": text(task.rules.roll_life)} if "bearing_rating" in items[place].fields else {})
+            for place, placed in _PULLEYS
         ]
     driven, bend = drive_diameter(task, chosen), task.bend_diameter(chosen.carcass)
-    sizes = (("head", driven), ("take-up", bend), ("tail", driven if "tail" in choice.drives else bend))
-    return [_pulley_fields(task, place, place, size, choice.trough.width.belt) for place, size in sizes]
+    sizes = {"head": driven, "take-up": bend, "tail": driven if "tail" in choice.drives else bend}
+    return [placed | _pulley_fields(task, sizes[place], choice.trough.width.belt) for place, placed in _PULLEYS]
 
 
-def _pulley_fields(task: SizingTask, name: str, place: str, diameter: float, width: float) -> dict[str, Any]:
+def _pulley_fields(task: SizingTask, diameter: float, width: float) -> dict[str, Any]:
     return {
-        "name": name,
-        "position": place,
         "diameter": _field_text(task, diameter, "mm"),
         "shaft_diameter": _field_text(task, SHAFT_DIAMETER_RATIO * diameter, "mm"),
         "mass": _field_text(task, PULLEY_MASS * diameter**2 * width, "kg", 3),

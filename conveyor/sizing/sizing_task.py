@@ -468,7 +468,7 @@ class SizingTask:
         return "A" if math.fsum(rise for _, rise in self.sections) < 0.0 else "B"
 
     def bend_diameter(self, carcass: CarcassClass) -> float:
-        """Diameter of tail and take-up pulleys [m], likewise."""
+        """Diameter of tail, take-up and bend pulleys [m], likewise."""
         return self._pulley_diameter(pulley_group_diameter(carcass.least_pulley, group=self.bend_group))
 
     def _pulley_diameter(self, least: float) -> float:
@@ -480,9 +480,9 @@ class SizingTask:
         return conveyor.replace(ambient=conveyor.ambient.replace(belt_temperature=self.duty.coldest))
 
     def pulley_mass(self, carcass: CarcassClass, width: float) -> float:
-        """Mass of head, take-up and tail pulley together [kg]."""
-        bend = self.bend_diameter(carcass)
-        return math.fsum(PULLEY_MASS * size**2 * width for size in (self.drive_diameter(carcass), bend, bend))
+        """Mass of all pulleys together [kg]: head, take-up with its two bends, and tail."""
+        sizes = (self.drive_diameter(carcass), *(4 * (self.bend_diameter(carcass),)))
+        return math.fsum(PULLEY_MASS * size**2 * width for size in sizes)
 
 
 def _carcass_class(kind: str, row: CarcassRow) -> CarcassClass:

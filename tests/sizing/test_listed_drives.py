@@ -75,6 +75,8 @@ def test_the_backstop_holds_the_worst_load_with_reserve(sizing):
 def test_a_pulley_whose_shaft_is_too_thin_gives_way(sizing):
     names = {one.place: one.item.name for one in sizing.best.chosen.listed.pulleys}
     assert names["head"] == "stout"  # 60 mm of shaft bear neither torque nor pull
+    built = {pulley.name: pulley.listed.name for pulley in sizing.best.conveyor.route.pulleys}
+    assert built == names | {"bend 1": names["take-up"], "bend 2": names["take-up"]}
 
 
 def test_the_written_spec_needs_no_list(tmp_path, sizing):

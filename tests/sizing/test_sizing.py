@@ -129,11 +129,21 @@ def test_no_weaker_class_and_no_smaller_motor_would_do(small, sized):
 
 
 def test_pulleys_weigh_by_width_and_the_square_of_their_diameter(small, sized):
-    """1750 kg of a pulley of 1 m in diameter and width, with its shaft: head, take-up and tail."""
+    """1750 kg of a pulley of 1 m in diameter and width, with its shaft: head, take-up, its two bends, and tail."""
     task, carcass = SizingTask(small), sized.best.chosen.carcass
     head, bend = task.drive_diameter(carcass), task.bend_diameter(carcass)
     assert bend < head
-    assert task.pulley_mass(carcass, 0.8) == pytest.approx(1750.0 * 0.8 * (head * head + 2.0 * bend * bend), rel=1e-12)
+    assert task.pulley_mass(carcass, 0.8) == pytest.approx(1750.0 * 0.8 * (head * head + 4.0 * bend * bend), rel=1e-12)
+
+
+def test_the_take_up_hangs_between_two_bends(sized):
+    pulleys = {pulley.name: pulley for pulley in sized.best.found.line.pulleys}
+    assert list(pulleys) == ["head", "bend 1", "take-up", "bend 2", "tail"]
+    assert [math.degrees(pulleys[name].wrap_angle) for name in ("bend 1", "take-up", "bend 2")] == pytest.approx(
+        [90.0, 180.0, 90.0]
+    )
+    assert {pulleys[name].position for name in ("bend 1", "take-up", "bend 2")} == {"take-up"}
+    assert pulleys["bend 1"].diameter == pulleys["bend 2"].diameter == pulleys["take-up"].diameter
 
 
 def test_the_estimate_is_close_where_it_chose(sized):
