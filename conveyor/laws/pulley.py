@@ -7,10 +7,11 @@ against fatigue, 1.5, and slope at the hub, 0.0023. The rest is statics.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Final, Literal
 
 from conveyor.arguments.limits import require, require_not_negative, require_positive
+from conveyor.errors import RangeError
 
 Steel = Literal["C1018", "C1045", "C4140"]
 Keyway = Literal["profiled", "sled runner"]
@@ -31,6 +32,32 @@ SHAFT_STEELS: Final[Mapping[Steel, tuple[float, float]]] = {
 """Fatigue limit of the polished specimen, yield strength [Pa]; CEMA B105.1, 4140 annealed."""
 KEYWAY_FACTOR: Final[Mapping[Keyway, float]] = {"profiled": 0.63, "sled runner": 0.77}
 """Fatigue limit with the keyway over that without [-]; CEMA B105.1, steels of less than 200 BHN."""
+SHAFT_DIAMETERS: Final = tuple(
+    1e-3 * mm for mm in (40, 50, 60, 70, 80, 90, 100, 110, 125, 140, 160, 180, *range(200, 1001, 20))
+)
+"""Diameters of shafts, by the bores of bearings in housings [m]; general knowledge."""
+CEMA_SHAFTS: Final = tuple(
+    _INCH * inches
+    for inches in (
+        1.4375,
+        1.9375,
+        2.1875,
+        2.4375,
+        2.9375,
+        3.4375,
+        3.9375,
+        4.4375,
+        4.9375,
+        5.4375,
+        6.0,
+        6.5,
+        7.0,
+        7.5,
+        8.0,
+        *range(9, 41),
+    )
+)
+"""The same in the US, CEMA B105.1 as commonly listed [m]; general knowledge."""
 _SURFACE, _RELIABILITY = 0.8, 0.897  # [-], CEMA B105.1: machined shaft, 90 %
 _SIZE_EXPONENT = -0.19  # CEMA B105.1: k_b = D^-0.19, D in inches
 _STEPS = 20  # each takes 0.19/3 of the error at most
@@ -233,6 +260,40 @@ def least_shaft_diameter(
         cubed = 32.0 * SHAFT_SAFETY / math.pi * _required_modulus(moment, torque, strong, steel, keyway)
         strong = cubed ** (1.0 / 3.0)
     return max(stiff, strong)
+
+
+def next_shaft_diameter(least_diameter: float, *, series: Sequence[float] = SHAFT_DIAMETERS) -> float:
+    """Next larger diameter of a series of shafts (bores of bearings; CEMA B105.1).
+
+    Parameters
+    ----------
+    least_diameter : float
+        Required, see `least_shaft_diameter` [m], at least 0.
+    series : sequence of float
+        Diameters, the least first [m], shape (n,): `SHAFT_DIAMETERS` or `CEMA_SHAFTS`.
+
+    Returns
+    -------
+    float
+        Diameter [m].
+
+    Raises
+    ------
+    InputError
+        The diameter is negative.
+    RangeError
+        Larger than the largest of the series, 1 m.
+
+    Examples
+    --------
+    >>> next_shaft_diameter(0.0888), next_shaft_diameter(0.1327)
+    (0.09, 0.14)
+    """
+    require_not_negative(least_diameter=least_diameter)
+    size = next((size for size in series if size >= least_diameter), None)
+    if size is None:
+        raise RangeError(f"least_diameter: got {least_diameter!r}, the largest of the series is {series[-1]:g} m")
+    return size
 
 
 def lagging_pressure(tension: float, *, pulley_diameter: float, belt_width: float) -> float:

@@ -239,6 +239,7 @@ class SelectedParts:
 
     `backstop`: torque of that on the first pulley [N m]; `take_up`: its tension [N], 0 where grip and sag decide;
     `listed`: items of makers' lists, None without lists of pulleys and parts of drives;
+    `shafts`: diameter of each pulley's shaft [m], none before all loads are known, and of listed pulleys;
     `settling`: selected from exact tensions already.
     """
 
@@ -251,3 +252,4 @@ class SelectedParts:
     take_up: float = 0.0
     listed: ListedParts | None = None
     settling: bool = False
+    shafts: tuple[float, ...] = ()

@@ -9,16 +9,21 @@ from functools import partial
 from typing import Any, Final
 
 from conveyor.laws.preliminary_sizing import PULLEY_MASS
+from conveyor.laws.pulley import Steel
 from conveyor.line.usual_parts import SHAFT_DIAMETER_RATIO
 from conveyor.models import Conveyor
 from conveyor.models.base import given_data
 from conveyor.models.maker_lists import ListedItem
-from conveyor.sizing.design_choice import CarcassClass, DesignChoice, RollSize, SelectedParts
+from conveyor.sizing.design_choice import CarcassClass, DesignChoice, RollSize, SelectedParts, WidthSize
 from conveyor.sizing.listed_sizes import listed_belt, listed_motor, named_item
 from conveyor.sizing.sizing_task import SizingTask
 from conveyor.units import from_si, text
 
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
+
+
+SHAFT_STEEL: Final[Steel] = "C1045"
+"""C45, the usual steel of pulley shafts; general knowledge."""
 
 
 _PULLEYS: Final = tuple(
@@ -102,7 +107,13 @@ def built_choice(task: SizingTask, choice: DesignChoice, chosen: SelectedParts) 
 
 def drive_diameter(task: SizingTask, chosen: SelectedParts) -> float:
     """Diameter of the drive pulleys [m]."""
-    return task.drive_diameter(chosen.carcass) if chosen.listed is None else chosen.listed.drive_diameter
+    return series_drive_diameter(task, chosen) if chosen.listed is None else chosen.listed.drive_diameter
+
+
+def series_drive_diameter(task: SizingTask, chosen: SelectedParts) -> float:
+    """Diameter of the drive pulleys of the series [m], with room for the shafts of head and tail."""
+    ends = chosen.shafts[:1] + chosen.shafts[-1:]
+    return max([task.drive_diameter(chosen.carcass), *map(task.pulley_around, ends)])
 
 
 def _field_text(task: SizingTask, value: float, unit: str, digits: int = 6) -> str:
@@ -135,14 +146,27 @@ def _all_pulleys(task: SizingTask, choice: DesignChoice, chosen: SelectedParts) 
         ]
     driven, bend = drive_diameter(task, chosen), task.bend_diameter(chosen.carcass)
     sizes = {"head": driven, "take-up": bend, "tail": driven if "tail" in choice.drives else bend}
-    return [placed | _pulley_fields(task, sizes[place], choice.trough.width.belt) for place, placed in _PULLEYS]
+    width, shafts = choice.trough.width, chosen.shafts or (None,) * len(_PULLEYS)
+    return [
+        placed | _pulley_fields(task, sizes[place], width, shaft)
+        for (place, placed), shaft in zip(_PULLEYS, shafts, strict=True)
+    ]
 
 
-def _pulley_fields(task: SizingTask, diameter: float, width: float) -> dict[str, Any]:
+def _pulley_fields(task: SizingTask, diameter: float, width: WidthSize, shaft: float | None) -> dict[str, Any]:
+    """Spec fields of a pulley; without its shaft a usual one, whose hubs and bearings have no place yet."""
+    diameter = diameter if shaft is None else max(diameter, task.pulley_around(shaft))
+    bearings, hubs = task.shaft_distances(width)
+    placed = {
+        "bearing_centres": _field_text(task, bearings, "mm"),
+        "hub_centres": _field_text(task, hubs, "mm"),
+        "shaft_steel": SHAFT_STEEL,
+    }
     return {
         "diameter": _field_text(task, diameter, "mm"),
-        "shaft_diameter": _field_text(task, SHAFT_DIAMETER_RATIO * diameter, "mm"),
-        "mass": _field_text(task, PULLEY_MASS * diameter**2 * width, "kg", 3),
+        "shaft_diameter": _field_text(task, SHAFT_DIAMETER_RATIO * diameter if shaft is None else shaft, "mm"),
+        "mass": _field_text(task, PULLEY_MASS * diameter**2 * width.belt, "kg", 3),
+        **({} if shaft is None else placed),
     }
 
 

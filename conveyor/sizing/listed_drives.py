@@ -14,6 +14,7 @@ from conveyor.laws.drives import gear_torque
 from conveyor.models.maker_lists import ListedItem, MakerKind
 from conveyor.models.sizing import within_limit
 from conveyor.sizing.design_choice import DesignChoice, ListedPart, ListedParts, SelectedParts
+from conveyor.sizing.design_spec import series_drive_diameter
 from conveyor.sizing.sized_design import Shortfall
 from conveyor.sizing.sizing_task import SizingTask
 from conveyor.units import read_si
@@ -227,7 +228,7 @@ class _Selection:
         if self.items("pulleys"):
             yield from self._wide_enough("head", least, self._alike)
             return
-        smallest = self.task.drive_diameter(self.chosen.carcass)
+        smallest = series_drive_diameter(self.task, self.chosen)
         yield smallest
         yield from (size for size in self.task.pulley_sizes if size > smallest)
 

@@ -17,7 +17,7 @@ from conveyor.laws.drives import next_preferred_number
 from conveyor.models import Conveyor
 from conveyor.pipeline import calculate_many
 from conveyor.sizing.design_choice import CarcassClass, DesignChoice, SelectedParts
-from conveyor.sizing.design_spec import built_choice, design_spec, drive_diameter
+from conveyor.sizing.design_spec import SHAFT_STEEL, built_choice, design_spec, drive_diameter
 from conveyor.sizing.listed_drives import HoldingDemand, select_listed_parts
 from conveyor.sizing.screen import Limit
 from conveyor.sizing.sized_design import Shortfall, SizedDesign, highest_tension
@@ -244,11 +244,12 @@ def _select_parts(
     brake = 0.0 if brake <= 0.0 else max(before.brake, held)
     if before.brake > 0.0 and brake <= before.brake * (1.0 + RTOL):
         brake = before.brake
-    diameter = drive_diameter(task, replace(before, carcass=carcass))
+    shafts = _required_shafts(task, choice, before, loads) if every_load or before.shafts else ()
+    diameter = drive_diameter(task, replace(before, carcass=carcass, shafts=shafts))
     backstop = max(before.backstop, _backstop_torque(diameter, loads)) if every_load else before.backstop
     chosen = SelectedParts(
         carcass, *task.covers(choice, carcass), (motor,) * len(before.motors), brake, backstop,
-        _take_up_setting(before.take_up, loads), before.listed, settling=True,
+        _take_up_setting(before.take_up, loads), before.listed, settling=True, shafts=shafts,
     )  # fmt: skip
     made = select_listed_parts(task, choice, chosen, _holding_demand(loads, held, every_load=every_load), loads)
     return replace(asked, short=made) if isinstance(made, Shortfall) else replace(asked, chosen=made)
@@ -274,6 +275,25 @@ def _backstop_torque(diameter: float, loads: Iterable[CalculatedConveyor]) -> fl
     """Torque of the next preferred backstop for all loads, with a reserve [N m]; 0 if none rolls back."""
     torque = BRAKE_RESERVE * _rolling_back(loads) * 0.5 * diameter
     return next_preferred_number(torque) if torque > 0.0 else 0.0
+
+
+def _required_shafts(
+    task: SizingTask, choice: DesignChoice, before: SelectedParts, loads: Iterable[CalculatedConveyor]
+) -> tuple[float, ...]:
+    """Shaft of every pulley by stress and slope in every state of all loads [m]; after the first round none thinner.
+
+    None of listed pulleys: they have their own.
+    """
+    if before.listed is not None and before.listed.pulleys:
+        return ()
+    bearings, hubs = task.shaft_distances(choice.trough.width)
+    least: dict[str, float] = {}
+    for duty in (duty for one in loads for duty in one.pulley_duty):
+        placed = replace(duty.pulley, bearing_centres=bearings, hub_centres=hubs, shaft_steel=SHAFT_STEEL)
+        borne = replace(duty, pulley=placed).least_shaft or 0.0
+        least[duty.pulley.name] = max(borne, least.get(duty.pulley.name, 0.0))
+    needed = tuple(map(task.shaft_diameter, least.values()))
+    return tuple(map(max, needed, before.shafts)) if before.settling and before.shafts else needed
 
 
 def _take_up_setting(before: float, loads: Sequence[CalculatedConveyor]) -> float:
@@ -348,7 +368,10 @@ def foresee_parts(task: SizingTask, design: SizedDesign) -> SelectedParts:
     backstop = chosen.backstop if task.duty.listed.items("backstops") else _backstop_torque(
         drive_diameter(task, replace(chosen, carcass=carcass)), design.pair
     )  # fmt: skip
-    return replace(chosen, carcass=carcass, top=top, bottom=bottom, motors=motors, backstop=backstop, settling=False)
+    return replace(
+        chosen, carcass=carcass, top=top, bottom=bottom, motors=motors, backstop=backstop, settling=False,
+        shafts=_required_shafts(task, design.choice, replace(chosen, settling=False), design.pair),
+    )  # fmt: skip
 
 
 def _drive_powers(one: CalculatedConveyor) -> list[float]:

@@ -28,6 +28,7 @@ from conveyor.laws.preliminary_sizing import (
     standard_edge_distance,
     wear_addition,
 )
+from conveyor.laws.pulley import CEMA_SHAFTS, SHAFT_DIAMETERS, next_shaft_diameter
 from conveyor.laws.take_up import (
     PERMANENT_STRETCH_STEEL_CORD,
     PERMANENT_STRETCH_TEXTILE,
@@ -57,6 +58,12 @@ _OVERLAND_LENGTH: Final = 1000.0  # [m], length from which spacings are those of
 
 _FACE_ALLOWANCE: Final = 0.1  # [m], ISO 1536 has more for wide belts; general knowledge, 0.1 to 0.2
 _FACE_ALLOWANCE_US: Final = 2.0 * 0.0254  # [m], CEMA drums, 3 in for wide belts; general knowledge
+
+
+_SHAFT_INSETS: Final = (0.075, 0.175)
+_SHAFT_INSETS_US: Final = (3.0 * 0.0254, 7.0 * 0.0254)
+"""Hubs inside the ends of a pulley's shell, and bearings outside of them [m]; general knowledge."""
+_PULLEY_OVER_SHAFT: Final = 2.0  # [-], room for the hubs and what clamps them; general knowledge
 
 
 _KEPT_FIELDS: Final = ("site", "material", "ambient", "operation", "calculation", "report")
@@ -474,6 +481,19 @@ class SizingTask:
     def _pulley_diameter(self, least: float) -> float:
         series = CEMA_PULLEYS if self.duty.series == "US" else PULLEY_DIAMETERS
         return next_pulley_diameter(least, series=series) if least <= series[-1] else least
+
+    def pulley_around(self, shaft: float) -> float:
+        """Diameter of the least pulley of the series that has room for a shaft [m]."""
+        return self._pulley_diameter(_PULLEY_OVER_SHAFT * shaft)
+
+    def shaft_diameter(self, least: float) -> float:
+        """Diameter of the next shaft of the series [m]."""
+        return next_shaft_diameter(least, series=CEMA_SHAFTS if self.duty.series == "US" else SHAFT_DIAMETERS)
+
+    def shaft_distances(self, width: WidthSize) -> tuple[float, float]:
+        """Usual distances of a pulley's bearings and hubs [m]; its shell is as long as the flat roll of the width."""
+        inside, outside = _SHAFT_INSETS_US if self.duty.series == "US" else _SHAFT_INSETS
+        return width.one + 2.0 * outside, width.one - 2.0 * inside
 
     def colder(self, conveyor: Conveyor) -> Conveyor:
         """The conveyor with its covers at the coldest temperature."""

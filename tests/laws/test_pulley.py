@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import pytest
 
-from conveyor.errors import InputError
+from conveyor.errors import InputError, RangeError
 from conveyor.laws.pulley import (
+    CEMA_SHAFTS,
     HUB_SLOPE,
+    SHAFT_DIAMETERS,
     SHAFT_SAFETY,
     hub_moment,
     lagging_pressure,
     least_shaft_diameter,
+    next_shaft_diameter,
     pulley_resultant,
     shaft_safety,
     shaft_slope,
@@ -71,3 +75,13 @@ def test_refusals_and_no_load():
         hub_moment(1.0, bearing_centres=1.0, hub_centres=1.0)
     with pytest.raises(InputError, match="pull_angle"):
         pulley_resultant(1.0, weight=1.0, pull_angle=4.0)
+
+
+def test_shafts_of_both_series_are_the_next_larger():
+    for series in (SHAFT_DIAMETERS, CEMA_SHAFTS):
+        assert list(series) == sorted(set(series))
+        for small, large in itertools.pairwise(series):
+            assert next_shaft_diameter(large, series=series) == large
+            assert next_shaft_diameter(small + 1e-6, series=series) == large
+    with pytest.raises(RangeError, match="the largest of the series is 1 m"):
+        next_shaft_diameter(1.2)

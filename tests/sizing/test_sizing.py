@@ -16,15 +16,17 @@ from openpyxl.utils import get_column_letter, range_boundaries
 import conveyor
 from conveyor import shelf
 from conveyor.checks import run_checks
+from conveyor.checks.pulley_checks import pulley_shaft
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.belt_strength import RATED_SAFETY
 from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS
+from conveyor.laws.pulley import CEMA_SHAFTS, next_shaft_diameter
 from conveyor.laws.roll_life import rating_life_hours
 from conveyor.models.prices import Prices
 from conveyor.models.sizing import SizingDuty
 from conveyor.sizing import size_conveyor
 from conveyor.sizing.design_choice import SelectedParts
-from conveyor.sizing.design_spec import design_spec
+from conveyor.sizing.design_spec import design_spec, drive_diameter
 from conveyor.sizing.part_sizing import size_parts
 from conveyor.sizing.screen import Candidates, first_calibration, screen_candidates
 from conveyor.sizing.sensitivity import vary_choices
@@ -144,6 +146,41 @@ def test_the_take_up_hangs_between_two_bends(sized):
     )
     assert {pulleys[name].position for name in ("bend 1", "take-up", "bend 2")} == {"take-up"}
     assert pulleys["bend 1"].diameter == pulleys["bend 2"].diameter == pulleys["take-up"].diameter
+
+
+def test_shafts_are_the_thinnest_of_the_series_that_pass_their_check_in_every_load(sized):
+    """Slope 0.0023 and safety 1.5 of CEMA B105.1, each shaft at its highest resultant; a size less fails."""
+    best = sized.best
+    loads = every_load(best.conveyor).designing
+    for checked in (check for one in (*loads, *best.pair) for check in pulley_shaft(one)):
+        assert checked.verdict == "pass", checked.subject.text()
+    for number, shaft in enumerate(best.chosen.shafts):
+        duties = [one.pulley_duty[number] for one in loads]
+        pulley = duties[0].pulley
+        assert pulley.shaft_diameter == pytest.approx(shaft, rel=1e-12)
+        least = max(duty.least_shaft for duty in duties)
+        assert shaft == pytest.approx(next_shaft_diameter(least), rel=1e-12)
+        assert pulley.diameter >= 2.0 * shaft
+        # face of 950 mm (DIN 22107), hubs 75 mm inside of its ends, bearings 175 mm outside
+        assert (pulley.bearing_centres, pulley.hub_centres) == pytest.approx((1.3, 0.8), rel=1e-12)
+
+
+def test_a_pulley_has_room_for_the_hubs_of_its_shaft(small, sized):
+    """On the least belt a thick shaft takes a larger pulley, a driven one with its gear ratio and torque."""
+    task, best = SizingTask(small), sized.best
+    thick = replace(best.chosen, shafts=(0.18,) * 5)
+    assert task.drive_diameter(best.chosen.carcass) < 0.36
+    assert drive_diameter(task, thick) == pytest.approx(0.4)  # of ISO 3684: 0.315, 0.4
+    assert {si(pulley.diameter) for pulley in design_spec(task, best.choice, thick, "t").route.pulleys} == {0.4}
+
+
+def test_shafts_of_the_us_have_its_sizes():
+    us = read_duty(DUTIES / "in_plant_us.yaml")
+    narrow = {"widths": ["36 in"], "speeds": ["600 fpm"], "trough_angles": ["35 deg"], "drives": ["head"]}
+    best = size_conveyor(us.replace(rules=us.rules.replace(**narrow)), best=1).best
+    assert len(best.chosen.shafts) == 5
+    assert set(best.chosen.shafts) <= set(CEMA_SHAFTS)
+    assert not [check for one in best.pair for check in pulley_shaft(one) if check.verdict != "pass"]
 
 
 def test_the_estimate_is_close_where_it_chose(sized):
