@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from conveyor.laws.pulley import Keyway, Steel
@@ -12,12 +10,8 @@ from conveyor.line.loop_positions import LoopPosition, LoopPositions
 from conveyor.line.optional_quantities import si_or_default, si_or_none
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, Pulley
+from conveyor.models.driven_pulleys import driven_pulleys
 from conveyor.units import si
-
-_LEAST_DRIVEN_WRAP = math.radians(90.0)
-"""Least wrap of a driven pulley [rad]; general knowledge."""
-_MOST_DRIVEN_WRAP = math.radians(270.0)
-"""Largest wrap of one driven pulley [rad], a larger one counts as several pulleys; general knowledge."""
 
 
 @dataclass(frozen=True)
@@ -67,26 +61,11 @@ class TransitionZone:
 def bend_pulleys(conveyor: Conveyor, places: LoopPositions) -> tuple[BendPulley, ...]:
     """Pulleys of a conveyor, by default the usual ones."""
     pulleys, assumed = usual_parts.route_pulleys(conveyor)
-    driven = _driven_pulleys(conveyor, pulleys)
+    driven = {one.pulley for one in driven_pulleys(conveyor.drive, pulleys)}
     return tuple(
         replace(_bend_pulley(conveyor, pulley, places, driven=i in driven), assumed=assumed)
         for i, pulley in enumerate(pulleys)
     )
-
-
-def _driven_pulleys(conveyor: Conveyor, pulleys: Sequence[Pulley]) -> frozenset[int]:
-    """Numbers of the driven pulleys: at each drive's position the most wrapped, as many as its wrap needs."""
-    driven: set[int] = set()
-    for place in {(drive.position, drive.section) for drive in conveyor.drive.pulleys}:
-        wraps = [si(d.wrap_angle) for d in conveyor.drive.pulleys if (d.position, d.section) == place]
-        count = sum(math.ceil(wrap / _MOST_DRIVEN_WRAP) for wrap in wraps)
-        beside = [
-            (-si(pulley.wrap_angle), -si(pulley.diameter), i)
-            for i, pulley in enumerate(pulleys)
-            if (pulley.position, pulley.section) == place and si(pulley.wrap_angle) >= _LEAST_DRIVEN_WRAP
-        ]
-        driven.update(i for _, _, i in sorted(beside)[:count])
-    return frozenset(driven)
 
 
 def _bend_pulley(conveyor: Conveyor, pulley: Pulley, places: LoopPositions, *, driven: bool) -> BendPulley:

@@ -17,6 +17,7 @@ from conveyor.models.belt import Cover, TopCover
 from conveyor.models.belt_shapes import OVERFILL_LIMIT
 from conveyor.models.bulk_sections import skirted_areas
 from conveyor.models.drive import DrivePulley
+from conveyor.models.driven_pulleys import driven_pulleys
 from conveyor.models.feeder_conflicts import hopper_problems, located_feeding
 from conveyor.models.idlers import IdlerSet, overlap_problems
 from conveyor.models.parts import ConveyorParts
@@ -26,6 +27,8 @@ from conveyor.units.presentation import format_figure
 
 _FLOW_ROUNDING: Final = 1e-9
 """Relative rounding of a flow derived from a cross-section [-]."""
+_ROUNDED_DIAMETER: Final = 1e-3
+"""Relative rounding of a diameter in another unit, 610 mm for 24 in [-]."""
 
 
 def _idler_sets(conveyor: ConveyorParts) -> tuple[tuple[str, IdlerSet], tuple[str, IdlerSet]]:
@@ -242,6 +245,18 @@ def drive_diameter(conveyor: ConveyorParts, drive: DrivePulley) -> Quantity | No
     return max(here, key=lambda pulley: si(pulley.wrap_angle)).diameter if here else None
 
 
+def _driven_diameter_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse driven pulleys of another diameter than their drive gives."""
+    drive, pulleys = conveyor.drive, conveyor.route.pulleys
+    for number, turned in driven_pulleys(drive, pulleys):
+        own, given = pulleys[number].diameter, drive.pulleys[turned].pulley_diameter
+        if given is None or math.isclose(si(own), si(given), rel_tol=_ROUNDED_DIAMETER):
+            continue
+        field = "drive.pulley_diameter" if turned == 0 else f"drive.further_drives[{turned - 1}].pulley_diameter"
+        message = f"got {text(own)}, but the drive that turns it has {text(given)} ({field}); correct one of the two"
+        yield Problem(("route", "pulleys", number, "diameter"), message)
+
+
 def _inertia_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Require the pulley diameter of a drive with a moment of inertia."""
     places: list[Location] = [("drive",)]
@@ -439,6 +454,7 @@ CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str
     hopper_problems: ("belt", "idlers", "route"),
     _discharge_problems: ("calculation", "route"),
     _drive_section_problems: ("drive", "route"),
+    _driven_diameter_problems: ("drive", "route"),
     _inertia_problems: ("drive", "route"),
     _face_problems: ("belt", "route"),
     _length_coefficient_problems: ("calculation", "route"),

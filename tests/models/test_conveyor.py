@@ -132,6 +132,31 @@ def test_conflict_is_refused_at_its_field(
     assert re.search(message, found[at])
 
 
+def _pulley(name: str, position: str, diameter: str, **fields: str) -> dict[str, str]:
+    return {"name": name, "position": position, "diameter": diameter, "shaft_diameter": "0.1 m", "mass": "1 t"} | fields
+
+
+def test_a_driven_pulley_has_the_diameter_of_its_drive(conveyor_data: dict[str, Any]) -> None:
+    """Of two drives at one place each its own, in the order listed; snubs and pulleys elsewhere have any."""
+    second = {"name": "second", "wrap_angle": "180 deg", "friction": 0.3, "share": 0.5, "pulley_diameter": "24 in"}
+    conveyor_data["drive"] |= {"pulley_diameter": "1 m", "share": 0.5, "further_drives": [second]}
+    conveyor_data["route"]["pulleys"] = [
+        _pulley("first", "head", "1000 mm"), _pulley("other", "head", "610 mm"),
+        _pulley("snub", "head", "400 mm", wrap_angle="20 deg"), _pulley("tail", "tail", "800 mm"),
+    ]  # fmt: skip
+    Conveyor.model_validate(conveyor_data)
+    conveyor_data["route"]["pulleys"][0]["diameter"] = "800 mm"
+    conveyor_data["route"]["pulleys"][1]["diameter"] = "500 mm"
+    with pytest.raises(SpecError) as caught:
+        Conveyor.model_validate(conveyor_data)
+    assert dict(caught.value.problems) == {
+        "route.pulleys[0].diameter": "got 800 mm, but the drive that turns it has 1 m (drive.pulley_diameter); "
+        "correct one of the two",
+        "route.pulleys[1].diameter": "got 500 mm, but the drive that turns it has 24 in "
+        "(drive.further_drives[0].pulley_diameter); correct one of the two",
+    }
+
+
 def test_further_drives_and_feeding_are_checked_like_the_first(conveyor_data: dict[str, Any]) -> None:
     booster = {"name": "booster", "position": "carry", "section": "three", "wrap_angle": "180 deg",
                "friction": 0.3, "installed_power": "90 kW"}  # fmt: skip

@@ -1,0 +1,42 @@
+"""Pulleys of a route that drives turn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Final, NamedTuple
+
+from conveyor.models.drive import Drive
+from conveyor.models.loop_parts import Pulley
+from conveyor.units import si
+
+_LEAST_DRIVEN_WRAP: Final = math.radians(90.0)
+"""Least wrap of a driven pulley [rad]; general knowledge."""
+_MOST_DRIVEN_WRAP: Final = math.radians(270.0)
+"""Largest wrap of one driven pulley [rad], a larger one counts as several pulleys; general knowledge."""
+
+
+class DrivenPulley(NamedTuple):
+    """Number of a pulley of the route, and that of the drive that turns it."""
+
+    pulley: int
+    drive: int
+
+
+def driven_pulleys(drive: Drive, pulleys: Sequence[Pulley]) -> Iterator[DrivenPulley]:
+    """Driven pulleys: at each drive's place the most wrapped, as many as its wrap needs, in the order listed."""
+    for place in dict.fromkeys((one.position, one.section) for one in drive.pulleys):
+        here = [k for k, one in enumerate(drive.pulleys) if (one.position, one.section) == place]
+        turning = [k for k in here for _ in range(_pulley_count(si(drive.pulleys[k].wrap_angle)))]
+        beside = [
+            (-si(pulley.wrap_angle), -si(pulley.diameter), i)
+            for i, pulley in enumerate(pulleys)
+            if (pulley.position, pulley.section) == place and si(pulley.wrap_angle) >= _LEAST_DRIVEN_WRAP
+        ]
+        driven = sorted(i for _, _, i in sorted(beside)[: len(turning)])
+        yield from map(DrivenPulley, driven, here if len(driven) == len(here) else turning)
+
+
+def _pulley_count(wrap: float) -> int:
+    """Number of pulleys that a drive's wrap [rad] needs."""
+    return math.ceil(wrap / _MOST_DRIVEN_WRAP)
