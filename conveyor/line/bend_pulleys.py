@@ -61,14 +61,16 @@ class TransitionZone:
 def bend_pulleys(conveyor: Conveyor, places: LoopPositions) -> tuple[BendPulley, ...]:
     """Pulleys of a conveyor, by default the usual ones."""
     pulleys, assumed = usual_parts.route_pulleys(conveyor)
-    driven = {one.pulley for one in driven_pulleys(conveyor.drive, pulleys)}
+    driven = {one.pulley: one.wrap for one in driven_pulleys(conveyor.drive, pulleys)}
     return tuple(
-        replace(_bend_pulley(conveyor, pulley, places, driven=i in driven), assumed=assumed)
+        replace(_bend_pulley(conveyor, pulley, places, driven.get(i)), assumed=assumed)
         for i, pulley in enumerate(pulleys)
     )
 
 
-def _bend_pulley(conveyor: Conveyor, pulley: Pulley, places: LoopPositions, *, driven: bool) -> BendPulley:
+def _bend_pulley(conveyor: Conveyor, pulley: Pulley, places: LoopPositions, drive_wrap: float | None) -> BendPulley:
+    """Pulley in SI; with the wrap of its drive [rad] where it has one and no wrap of its own."""
+    driven = drive_wrap is not None
     return BendPulley(
         name=pulley.name,
         position=pulley.position,
@@ -77,7 +79,7 @@ def _bend_pulley(conveyor: Conveyor, pulley: Pulley, places: LoopPositions, *, d
         diameter=si(pulley.diameter),
         shaft_diameter=si(pulley.shaft_diameter),
         mass=si(pulley.mass),
-        wrap_angle=si(pulley.wrap_angle),
+        wrap_angle=si_or_default(pulley.wrap_angle, drive_wrap or pulley.wrap_or_half_turn),
         driven=driven,
         pull_angle=si(pulley.pull_angle),
         bearing_centres=si_or_none(pulley.bearing_centres),

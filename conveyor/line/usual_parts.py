@@ -93,7 +93,7 @@ def _least_diameter(conveyor: Conveyor) -> float:
     return factor * si(carcass.thickness)
 
 
-def _usual_pulley(name: str, position: _Place, diameter: float, wrap: str = "180 deg") -> Pulley:
+def _usual_pulley(name: str, position: _Place, diameter: float, wrap: str | None = None) -> Pulley:
     return Pulley.model_construct(  # unvalidated: a 50 mm carcass needs more than the largest pulley
         name=name,
         position=position,
@@ -101,7 +101,7 @@ def _usual_pulley(name: str, position: _Place, diameter: float, wrap: str = "180
         shaft_diameter=from_si(SHAFT_DIAMETER_RATIO * diameter, "length"),
         mass=from_si(0.0, "mass"),
         section=None,
-        wrap_angle=quantity(wrap),
+        wrap_angle=None if wrap is None else quantity(wrap),
     )
 
 

@@ -17,26 +17,30 @@ _MOST_DRIVEN_WRAP: Final = math.radians(270.0)
 
 
 class DrivenPulley(NamedTuple):
-    """Number of a pulley of the route, and that of the drive that turns it."""
+    """Number of a pulley of the route, that of the drive that turns it, and its share of the drive's wrap [rad]."""
 
     pulley: int
     drive: int
+    wrap: float
 
 
 def driven_pulleys(drive: Drive, pulleys: Sequence[Pulley]) -> Iterator[DrivenPulley]:
     """Driven pulleys: at each drive's place the most wrapped, as many as its wrap needs, in the order listed."""
     for place in dict.fromkeys((one.position, one.section) for one in drive.pulleys):
         here = [k for k, one in enumerate(drive.pulleys) if (one.position, one.section) == place]
-        turning = [k for k in here for _ in range(_pulley_count(si(drive.pulleys[k].wrap_angle)))]
+        shares = {k: _shared_wrap(si(drive.pulleys[k].wrap_angle)) for k in here}
+        turning = [k for k, (count, _) in shares.items() for _ in range(count)]
         beside = [
-            (-si(pulley.wrap_angle), -si(pulley.diameter), i)
+            (-pulley.wrap_or_half_turn, -si(pulley.diameter), i)
             for i, pulley in enumerate(pulleys)
-            if (pulley.position, pulley.section) == place and si(pulley.wrap_angle) >= _LEAST_DRIVEN_WRAP
+            if (pulley.position, pulley.section) == place and pulley.wrap_or_half_turn >= _LEAST_DRIVEN_WRAP
         ]
         driven = sorted(i for _, _, i in sorted(beside)[: len(turning)])
-        yield from map(DrivenPulley, driven, here if len(driven) == len(here) else turning)
+        for i, k in zip(driven, here if len(driven) == len(here) else turning, strict=False):
+            yield DrivenPulley(i, k, shares[k][1])
 
 
-def _pulley_count(wrap: float) -> int:
-    """Number of pulleys that a drive's wrap [rad] needs."""
-    return math.ceil(wrap / _MOST_DRIVEN_WRAP)
+def _shared_wrap(wrap: float) -> tuple[int, float]:
+    """Number of pulleys that a drive's wrap [rad] needs, and the wrap of each [rad]."""
+    count = math.ceil(wrap / _MOST_DRIVEN_WRAP)
+    return count, wrap / count

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
@@ -62,8 +63,8 @@ class Pulley(LibraryItem):
     """Of pulley and shaft; its weight loads the bearings."""
     face_width: Annotated[Length, Bounds(gt="0 m", le="10 m")] | None = None
     """Of its shell, which must be wider than the belt."""
-    wrap_angle: Annotated[Angle, Bounds(gt="0 deg", le="360 deg")] = quantity("180 deg")
-    """Angle over which the belt lies on it."""
+    wrap_angle: Annotated[Angle, Bounds(gt="0 deg", le="360 deg")] | None = None
+    """Angle over which the belt lies on it; without it that of the drive that turns it, else 180 deg."""
     pull_angle: Annotated[Angle, Bounds(ge="0 deg", le="180 deg")] = quantity("0 deg")
     """Between the belt's pull on it and straight down: 90 deg where it pulls level; at 0 all the weight adds to it."""
     bearing_centres: Annotated[Length, Bounds(gt="0 m", le="10 m")] | None = None
@@ -84,6 +85,11 @@ class Pulley(LibraryItem):
     """Pressure of the belt that its lagging bears, by the lagging's maker."""
     listed: Listed | None = None
     """Item of a maker's list that gives what is not given here."""
+
+    @property
+    def wrap_or_half_turn(self) -> float:
+        """Wrap as given, else half a turn [rad]."""
+        return math.pi if self.wrap_angle is None else si(self.wrap_angle)
 
     @model_validator(mode="after")
     def _shaft_inside(self) -> Self:

@@ -242,13 +242,13 @@ def drive_diameter(conveyor: ConveyorParts, drive: DrivePulley) -> Quantity | No
         return drive.pulley_diameter
     place = (drive.position, drive.section)
     here = [pulley for pulley in conveyor.route.pulleys if (pulley.position, pulley.section) == place]
-    return max(here, key=lambda pulley: si(pulley.wrap_angle)).diameter if here else None
+    return max(here, key=lambda pulley: pulley.wrap_or_half_turn).diameter if here else None
 
 
 def _driven_diameter_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Refuse driven pulleys of another diameter than their drive gives."""
     drive, pulleys = conveyor.drive, conveyor.route.pulleys
-    for number, turned in driven_pulleys(drive, pulleys):
+    for number, turned, _ in driven_pulleys(drive, pulleys):
         own, given = pulleys[number].diameter, drive.pulleys[turned].pulley_diameter
         if given is None or math.isclose(si(own), si(given), rel_tol=_ROUNDED_DIAMETER):
             continue

@@ -397,7 +397,9 @@ class Route(Model):
             return True
         if point.share is None or si(point.share) != 1.0:
             return False
-        turns = {p.section for p in self.pulleys if p.position == "carry" and si(p.wrap_angle) > _LARGEST_HOLDING_WRAP}
+        turns = {
+            p.section for p in self.pulleys if p.position == "carry" and p.wrap_or_half_turn > _LARGEST_HOLDING_WRAP
+        }
         return any(
             section.name in turns and after.name == point.section
             for section, after in itertools.pairwise(self.sections)

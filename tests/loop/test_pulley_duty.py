@@ -15,6 +15,7 @@ from conveyor.forces import rubber_free_forces
 from conveyor.laws.pulley import hub_moment, least_shaft_diameter, shaft_safety, shaft_slope
 from conveyor.laws.transition import transition_stretch
 from conveyor.line.contacts import Contacts
+from conveyor.line.line import Line
 from conveyor.loop.belt_duty import belt_duty
 from conveyor.loop.start_and_stop import motion_states, start_and_stop
 from conveyor.spec import from_data
@@ -44,6 +45,33 @@ def duties(found):
 @pytest.fixture(scope="module")
 def plain():
     return calculated()
+
+
+def _degrees(*pulleys, drive):
+    made = Line.of(line(route={"pulleys": list(pulleys)}, drive=drive))
+    return [round(math.degrees(pulley.wrap_angle), 9) for pulley in made.pulleys]
+
+
+def test_a_driven_pulley_without_its_own_wrap_has_that_of_its_drive():
+    """Given wraps stay; of two drives at a place each its own, of one drive with two pulleys its share."""
+    other = HEAD | {"name": "other"}
+    one = {"wrap_angle": "200 deg"}
+    assert _degrees(HEAD, BEND, TAIL, SNUB, drive=one) == [200.0, 180.0, 180.0, 20.0]
+    assert _degrees(HEAD | {"wrap_angle": "190 deg"}, TAIL, drive=one) == [190.0, 180.0]
+    assert _degrees(HEAD, other, TAIL, drive=one | {"further_drives": [SECOND]}) == [200.0, 180.0, 180.0]
+    assert _degrees(HEAD, other, TAIL, drive={"wrap_angle": "430 deg"}) == [215.0, 215.0, 180.0]
+    assert _degrees(HEAD, TAIL, drive={"wrap_angle": "430 deg"}) == [215.0, 180.0]
+    assert _degrees(drive=one) == [200.0, 180.0]  # assumed
+
+
+def test_the_resultant_of_a_driven_pulley_is_that_of_its_wrap():
+    """Triangle of the tensions, which meet at the wrap, with the weight beside their sum."""
+    found = with_pulleys(HEAD | {"mass": "0 kg"}, TAIL)
+    head = duties(found)["head"]
+    for load in head.loads:
+        tight, slack = load.arriving, load.leaving
+        pull = math.sqrt(tight**2 + slack**2 - 2.0 * tight * slack * math.cos(math.radians(200.0)))
+        assert load.resultant == pytest.approx(pull, rel=1e-9)
 
 
 def test_every_pulley_has_the_tensions_of_its_place_in_every_state(plain):
