@@ -12,9 +12,11 @@ import pytest
 from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.fitting import fit_page, fit_verdict, summary
+from conveyor.fitting.findings import FINDINGS
 from conveyor.fitting.fitted_compound import Request, fit_file
 from conveyor.laboratory import read_dma
 from conveyor.rubber import PronySeries, equivalent_sweep
+from conveyor.rubber.misfit import scatter_within
 from conveyor.spec import load
 
 ROOT = Path(__file__).parent.parent
@@ -287,3 +289,54 @@ def test_repeats_are_averaged_where_that_is_asked_for(tmp_path: Path, alone):
     assert sum("averaged at 11 frequencies; their E' differ by up to 8.2 %" in line for line in found.understood) == 15
     with pytest.raises(InputError, match=r"are none, their E' differs by a factor of 1\.7: .*--exclude"):
         fit_file(pairs(tmp_path / "odd.csv", apart=0.2, factor=1.3), Request("x", AT, repeats=True))
+
+
+def sparse(path: Path, frequencies, scatter: float, seed: int = 0) -> Path:
+    """Isotherms of the truth at few frequencies, with a scatter of each row."""
+    rng = np.random.default_rng(seed)
+    lines = ["T [degC];f [Hz];E' [MPa];E'' [MPa]"]
+    for t in range(-40, 41, 10):
+        for f in frequencies:
+            series, omega = TRUTH.series(273.15 + t), 2.0 * np.pi * f
+            both = (float(m(omega)) * np.exp(scatter * rng.standard_normal()) for m in (series.storage, series.loss))
+            lines.append(";".join([f"{t}", f"{f:.6g}", *(f"{m / 1e6:.6g}" for m in both)]))
+    path.write_text("\n".join(lines), encoding="utf-8")
+    return path
+
+
+def test_scatter_of_sparse_isotherms_is_not_their_curvature(tmp_path: Path):
+    exact = fit_file(sparse(tmp_path / "exact.csv", (0.1, 2.0, 50.0), 0.0), Request("x", AT, replicas=0))
+    f, storage, _ = exact.rows.curve
+    assert scatter_within(f, storage, exact.rows.temperature) > fit_verdict.NOISE_LIMITS[0]  # by curvature
+    # six digits are printed, and the series leaves 0.1 % at the most
+    assert max(exact.noise) < 2e-3
+    assert not failing(exact)
+    left = next(c for c in fit_verdict.fit_criteria(exact) if c.name == "left by the series")
+    assert left.required == "at most 1.0 %"
+
+
+@pytest.mark.parametrize("frequencies", [(0.1, 2.0, 50.0), tuple(np.geomspace(0.1, 50.0, 5))])
+@pytest.mark.parametrize("scatter", [0.01, 0.1])
+def test_scatter_of_sparse_isotherms_is_found(tmp_path: Path, frequencies, scatter):
+    made = [sparse(tmp_path / f"{seed}.csv", frequencies, scatter, seed) for seed in range(4)]
+    found = [fit_file(path, Request("x", AT, replicas=0, accept=frozenset(FINDINGS))).noise for path in made]
+    # four files of nine residuals and more, of E' and E'' alike: 1/sqrt(2 * 72) = 8 %; three of it
+    assert np.sqrt(np.mean(np.square(found))) == pytest.approx(scatter, rel=0.25)
+
+
+def test_three_rows_tell_no_scatter(tmp_path: Path):
+    path = tmp_path / "three.csv"
+    path.write_text("f [Hz];E' [MPa];E'' [MPa]\n0.1;6.1;0.61\n0.16;6.2;0.62\n0.26;6.3;0.64\n", encoding="utf-8")
+    fitted = fit_file(path, Request("x", AT, replicas=0, accept=frozenset({"few-rows"})))
+    assert fitted.noise == (None, None)
+    known = {one.name: one.verdict for one in fit_verdict.fit_criteria(fitted)}
+    assert known["scatter of E' from row to row"] == "not checked"
+
+
+def test_scatter_that_fails_allows_the_series_no_more(tmp_path: Path):
+    path = sparse(tmp_path / "noisy.csv", np.geomspace(0.1, 50.0, 5), 0.2)
+    fitted = fit_file(path, Request("x", AT, replicas=0, accept=frozenset(FINDINGS)))
+    criteria = {one.name: one for one in fit_verdict.fit_criteria(fitted)}
+    assert criteria["scatter of E' from row to row"].verdict == "FAIL"
+    most = float(criteria["left by the series"].required.removeprefix("at most ").removesuffix(" %"))
+    assert most == pytest.approx(100.0 * (fitted.fit.consistency_floor + fit_verdict.RESIDUAL_MARGIN), abs=0.06)

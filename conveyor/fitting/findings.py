@@ -11,8 +11,8 @@ import numpy as np
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laboratory.dma_data import FloatArray
-from conveyor.rubber.fit import consistency_floor
-from conveyor.rubber.misfit import LEAST_SCATTER, row_scatter
+from conveyor.rubber.fit import consistency_floor, scatter_about_best
+from conveyor.rubber.misfit import LEAST_SCATTER
 
 FINDINGS: Final = {
     "few-rows": "fewer than five frequencies, or less than a decade of them",
@@ -112,10 +112,9 @@ def _contradiction_finding(
         readings += [(BETTER_SHARE, *one) for one in _other_readings(frequency, storage, loss, shear)]
     tried = [(_spectrum_residual(*curve), share, advice) for share, curve, advice in readings]
     found = min((one for one in tried if one[0] < one[1] * left), default=None)
-    noise = [row_scatter(frequency, modulus) or 0.0 for modulus in (storage, loss)]
     if found is not None:
         yield Finding("contradiction", f"{seen}, but by {100.0 * found[0]:.1f} % {found[2]}")
-    elif left > max(CONTRADICTION_RESIDUAL, SCATTER_MARGIN * math.sqrt(0.5) * math.hypot(*noise)):
+    elif left > max(CONTRADICTION_RESIDUAL, SCATTER_MARGIN * _spectrum_scatter(frequency, storage, loss)):
         yield Finding(
             "contradiction",
             f"{seen}, far more than they scatter from row to row; look for columns or units mixed up, two "
@@ -174,6 +173,15 @@ def _other_readings(
 
 def _is_within(values: FloatArray, limits: tuple[float, float]) -> bool:
     return bool(limits[0] <= values.min() and values.max() <= limits[1])
+
+
+def _spectrum_scatter(frequency: FloatArray, storage: FloatArray, loss: FloatArray) -> float:
+    """Scatter of both moduli from row to row about the best positive spectrum [-]; 0 where none has a loss."""
+    try:
+        noise = scatter_about_best(frequency, storage, loss)
+    except NoSolutionError:
+        return 0.0
+    return math.sqrt(0.5) * math.hypot(*(value or 0.0 for value in noise))
 
 
 def _spectrum_residual(frequency: FloatArray, storage: FloatArray, loss: FloatArray) -> float:

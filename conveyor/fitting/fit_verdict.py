@@ -9,6 +9,7 @@ from typing import Final, Literal
 
 import numpy as np
 
+from conveyor.arguments.arrays import FloatArray
 from conveyor.errors import ConveyorError
 from conveyor.fitting.amplitude import UNLIKE_STRAINS, amplitude_ratio, strain_text
 from conveyor.fitting.findings import DOUBTFUL_RESIDUAL, SCATTER_MARGIN
@@ -16,7 +17,7 @@ from conveyor.fitting.fitted_compound import FittedCompound
 from conveyor.fitting.measured_rows import MeasuredRows
 from conveyor.fitting.shift_choice import slope_text
 from conveyor.models import Conveyor
-from conveyor.rubber import ShiftComparison, Superposition
+from conveyor.rubber import PronySeries, ShiftComparison, Superposition
 from conveyor.units import text
 from conveyor.units.sentences import percent, to_celsius
 
@@ -38,6 +39,10 @@ MODULUS_REPEATABILITY: Final = 0.005
 """Repeatability of |E*| of a DMA (general knowledge) [-]."""
 SCATTER_LIMIT: Final = 2.0
 """Largest difference over the scatter of the rows: 95 % of a normal distribution lie within twice [-]."""
+FEWEST_COMMON: Final = 3
+"""Least rows of an isotherm within the next one's line: twice their scatter by chance in 2 % of two, 1 % of three."""
+LINE_POINTS: Final = 8
+"""Points of a line between two rows: its sag falls by the square, 64 times."""
 PHASE_SLOPE_LIMIT: Final = 0.03
 """Largest change of E'' per decade of measured frequency: `ANGLE_REPEATABILITY` is 5 % of E'' at tan δ 0.1, over the
 1.7 decades of a usual isotherm 3 % [-]."""
@@ -65,7 +70,7 @@ GLOSSARY: Final = (
     ("E_e, E_inf", "modulus at rest, and at infinite frequency"),
     ("best positive spectrum", "the closest curve that any Prony series could give; what it leaves is in the data"),
     ("90 % band", "what nine tenths of the replicas of the fit keep to, data resampled by their own residuals"),
-    ("scatter", "of a row about the line through its neighbours, without any model"),
+    ("scatter", "of a row about the line through its neighbours, bent as the curve of all isotherms"),
     ("overlap", "frequencies that two neighbouring isotherms share on the master curve"),
     ("correlation", "of each error with its neighbour's: near 0 for scatter, near 1 for a misfit with a shape"),
     ("rms", "root mean square"),
@@ -153,7 +158,7 @@ def _noise_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
     for label, value, most in zip(("E'", "E''"), fitted.noise, NOISE_LIMITS, strict=True):
         name, why = f"scatter of {label} from row to row", "instrument, clamping, range of its force"
         yield (
-            _not_checked(name, "fewer than three rows")
+            _not_checked(name, "too few rows to tell scatter from curvature")
             if value is None
             else _at_most(name, value, most, _percent_text, why)
         )
@@ -239,7 +244,9 @@ def _shape_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
         )  # fmt: skip
 
 
-def collapse_spread(rows: MeasuredRows, noise: tuple[float, float]) -> tuple[float, float, float] | None:
+def collapse_spread(
+    rows: MeasuredRows, noise: tuple[float, float], series: PronySeries
+) -> tuple[float, float, float] | None:
     """Largest difference of phase angle between neighbouring isotherms at one modulus, |E*|/b_T.
 
     Parameters
@@ -248,12 +255,14 @@ def collapse_spread(rows: MeasuredRows, noise: tuple[float, float]) -> tuple[flo
         Temperatures of fewer than three rows do not count.
     noise : tuple of float
         Scatter of E' and E'' from row to row [-].
+    series : PronySeries
+        Bends the lines between the rows of an isotherm.
 
     Returns
     -------
     tuple or None
         Root mean square of the differences over their scatter [-], and both temperatures [K]; None where no two
-        isotherms have moduli in common.
+        isotherms have moduli of `FEWEST_COMMON` rows in common.
 
     Notes
     -----
@@ -261,38 +270,59 @@ def collapse_spread(rows: MeasuredRows, noise: tuple[float, float]) -> tuple[flo
     on a plateau, the modulus decides. Rows beyond the ends of the line do not count.
     d(delta) = sin(2 delta)/2 d(ln tan delta).
     """
-    _, storage, loss = rows.curve
-    angles, moduli = np.arctan2(loss, storage), np.log(np.hypot(storage, loss))
+    reduced, storage, loss = rows.curve
+    measured = _frequency_free(storage, loss)
+    omega = 2.0 * np.pi * reduced
+    apart = measured - _frequency_free(series.storage(omega), series.loss(omega))
+    angles = measured[1]
     turned = np.hypot(np.radians(ANGLE_REPEATABILITY), 0.5 * np.sin(2.0 * angles) * np.hypot(*noise))
     temperatures = [t for t in np.unique(rows.temperature) if np.count_nonzero(rows.temperature == t) > 2]
     spreads = []
     for cold, hot in pairwise(temperatures):
         line = np.flatnonzero(rows.temperature == hot)  # rows are in the order of the frequency
-        apart = []
-        moved = (np.diff(moduli[line]) != 0.0) | (np.diff(angles[line]) != 0.0)
-        line = line[np.concatenate([[True], moved])]
-        if line.size < 2:
+        points = _isotherm_line(np.log(reduced[line]), apart[:, line], series)
+        if points.shape[1] < 2:
             continue
+        distances = []
         for k in np.flatnonzero(rows.temperature == cold):
             scale = np.array([max(noise[0], MODULUS_REPEATABILITY), turned[k]])
-            at = (np.array([moduli[line], angles[line]]).T - [moduli[k], angles[k]]) / scale
+            at = (points.T - measured[:, k]) / scale
             step = np.diff(at, axis=0)
             share = -np.sum(at[:-1] * step, axis=1) / np.sum(step**2, axis=1)
             distance = np.linalg.norm(at[:-1] + np.clip(share, 0.0, 1.0)[:, None] * step, axis=1)
             nearest = int(np.argmin(distance))
             first, last = nearest == 0 and share[0] < 0.0, nearest == share.size - 1 and share[-1] > 1.0
             if not first and not last:
-                apart.append(float(distance[nearest]))
-        if apart:
-            spreads.append((float(np.sqrt(np.mean(np.square(apart)) / 2.0)), float(cold), float(hot)))
+                distances.append(float(distance[nearest]))
+        if len(distances) >= FEWEST_COMMON:
+            spreads.append((float(np.sqrt(np.mean(np.square(distances)) / 2.0)), float(cold), float(hot)))
     return max(spreads, default=None)
 
 
+def _frequency_free(storage: FloatArray, loss: FloatArray) -> FloatArray:
+    """Logarithm of |E*| and phase angle [rad], shape `(2, n)`."""
+    return np.array([np.log(np.hypot(storage, loss)), np.arctan2(loss, storage)])
+
+
+def _isotherm_line(x: FloatArray, apart: FloatArray, series: PronySeries) -> FloatArray:
+    """Line through the rows of an isotherm, ln frequency x, bent as the series from which they are apart."""
+    between = np.linspace(x[:-1], x[1:], LINE_POINTS, endpoint=False).T.ravel()
+    x_line = np.append(between, x[-1])
+    omega = 2.0 * np.pi * np.exp(x_line)
+    points = _frequency_free(series.storage(omega), series.loss(omega))
+    points += np.array([np.interp(x_line, x, one) for one in apart])
+    moved = np.any(np.diff(points, axis=1) != 0.0, axis=0)
+    return np.asarray(points[:, np.concatenate([[True], moved])])
+
+
 def _collapse_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
-    noise = (fitted.noise[0] or 0.0, fitted.noise[1] or 0.0)
-    worst, name = collapse_spread(fitted.rows, noise), "van Gurp-Palmen collapse"
+    name, (storage, loss) = "van Gurp-Palmen collapse", fitted.noise
+    if storage is None or loss is None:
+        yield _not_checked(name, "scatter from row to row is not known")
+        return
+    worst = collapse_spread(fitted.rows, (storage, loss), fitted.fit.series)
     if worst is None:
-        yield _not_checked(name, "no two isotherms with moduli in common")
+        yield _not_checked(name, "no two isotherms with moduli in common, of three rows at least")
         return
     pair = " and ".join(f"{to_celsius(t):.0f}" for t in worst[1:])
     why = f"worst of {pair} °C; another state, specimen or strain, or a vertical shift"
@@ -321,7 +351,8 @@ def _consistency_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
 
 def _residual_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
     fit = fitted.fit
-    scatter = float(np.hypot(fitted.noise[0] or 0.0, fitted.noise[1] or 0.0)) / np.sqrt(2.0)
+    storage, loss = (min(value or 0.0, most) for value, most in zip(fitted.noise, NOISE_LIMITS, strict=True))
+    scatter = float(np.hypot(storage, loss)) / np.sqrt(2.0)
     most = max(fit.consistency_floor + RESIDUAL_MARGIN, SCATTER_MARGIN * scatter)
     yield _at_most(
         "left by the series", fit.residual, most, _percent_text,

@@ -18,7 +18,7 @@ from conveyor.laboratory.groups import ISOTHERM_GAP, set_points, temperature_gro
 from conveyor.laboratory.measurement_kinds import UNLIKE_RATIO
 from conveyor.rubber import Isotherm, PronyFit, ShiftLaw, Superposition, entropic_b_T, equivalent_sweep
 from conveyor.rubber.master_curve import LEAST_ROWS, ShiftVariant
-from conveyor.rubber.misfit import scatter_within
+from conveyor.rubber.misfit import MOST_SPENT, scatter_within
 from conveyor.units.sentences import to_celsius
 
 Array = NDArray[np.float64]
@@ -72,10 +72,25 @@ class MeasuredRows:
         return MeasuredRows(**{name: getattr(self, name)[order] for name in self.__dataclass_fields__})
 
 
+FEWEST_RESIDUALS = 5
+"""Least rows between two others that tell a scatter: of five it is known to 1/sqrt(2 5), a third [-]."""
+
+
 def isotherm_scatter(rows: MeasuredRows, fit: PronyFit) -> tuple[float | None, float | None]:
-    """Scatter of E' and E'' from row to row [-]: within isotherms; of a master curve along it."""
+    """Scatter of E' and E'' from row to row [-]: within isotherms; of a master curve along it.
+
+    None where fewer than `FEWEST_RESIDUALS` rows tell it, or the series has taken most of it.
+    """
     f, storage, loss = rows.curve
-    within = [scatter_within(f, modulus, rows.temperature) for modulus in (storage, loss)]
+    counts = np.unique(rows.temperature, return_counts=True)[1]
+    inner = int(np.sum(np.maximum(counts - 2, 0))) or f.size - 2
+    if inner < FEWEST_RESIDUALS or fit.spent > MOST_SPENT:
+        return None, None
+    omega, series = 2.0 * np.pi * f, fit.series
+    within = [
+        scatter_within(f, modulus, rows.temperature, curve, fit.spent)
+        for modulus, curve in ((storage, series.storage(omega)), (loss, series.loss(omega)))
+    ]
     if None in within:
         return fit.storage_noise, fit.loss_noise
     return within[0], within[1]

@@ -69,8 +69,8 @@ class PronyFit:
     freedom : float
         Effective number of fitted parameters [-].
     storage_noise : float or None
-        Scatter of E' from row to row, without any model [-]; None for fewer than three rows. A `storage.rms`
-        far above it is contradiction or lack of terms, not noise.
+        Scatter of E' from row to row, see `conveyor.rubber.misfit.row_scatter` [-]; None for fewer than three rows. A
+        `storage.rms` far above it is contradiction or lack of terms, not noise.
     loss_noise : float or None
         The same for E'' [-].
     correlation : float
@@ -114,6 +114,11 @@ class PronyFit:
     def active_terms(self) -> int:
         """Number of terms the fit kept [-]."""
         return int(self.series.times.size)
+
+    @property
+    def spent(self) -> float:
+        """Effective parameters over the values that they were fitted to [-]."""
+        return _spent_share(self.freedom, self.rows)
 
     @property
     def errors(self) -> FloatArray:
@@ -308,7 +313,9 @@ def _fit_on_times(
     columns = rows.matrix(tau)[:, moduli > 0.0]
     best = _best_errors(rows)
     f, omega = rows.frequency, rows.omega
-    error1, error2 = series.storage(omega) / rows.storage - 1.0, series.loss(omega) / rows.loss - 1.0
+    storage, loss = series.storage(omega), series.loss(omega)
+    error1, error2 = storage / rows.storage - 1.0, loss / rows.loss - 1.0
+    spent = _spent_share(solution.freedom, rows)
     return PronyFit(
         series=series,
         storage=relative_misfit(error1, f),
@@ -322,8 +329,8 @@ def _fit_on_times(
         best_errors=(best / rows.target).reshape(2, -1),
         regularisation=strength,
         freedom=solution.freedom,
-        storage_noise=row_scatter(f, rows.storage),
-        loss_noise=row_scatter(f, rows.loss),
+        storage_noise=row_scatter(f, rows.storage, storage, spent),
+        loss_noise=row_scatter(f, rows.loss, loss, spent),
         correlation=max(neighbour_correlation(error1), neighbour_correlation(error2)),
         candidates=candidates,
         rows=rows,
@@ -333,9 +340,26 @@ def _fit_on_times(
 
 def consistency_floor(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
     """Residual of the best of all positive spectra [-], see `PronyFit.consistency_floor`."""
-    rows = checked_rows(frequency, storage, loss, storage_error=None, loss_error=None)
-    best = _best_errors(scale_to_fit(rows, even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, REACH), None))
+    best, _ = _best_of_rows(frequency, storage, loss)
     return float(np.sqrt(np.mean(best**2)))
+
+
+def scatter_about_best(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> tuple[float | None, float | None]:
+    """Scatter of E' and E'' from row to row about the best of all positive spectra [-], see `row_scatter`."""
+    best, rows = _best_of_rows(frequency, storage, loss)
+    curve, other = np.split((best + rows.target) * rows.scale, 2)
+    return row_scatter(rows.frequency, rows.storage, curve), row_scatter(rows.frequency, rows.loss, other)
+
+
+def _best_of_rows(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> tuple[FloatArray, FitRows]:
+    """Errors of `_best_errors` and their rows, for errors relative to the fit."""
+    rows = checked_rows(frequency, storage, loss, storage_error=None, loss_error=None)
+    rows = scale_to_fit(rows, even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, REACH), None)
+    return _best_errors(rows), rows
+
+
+def _spent_share(freedom: float, rows: FitRows) -> float:
+    return freedom / (2.0 * rows.frequency.size)
 
 
 def _best_errors(rows: FitRows) -> FloatArray:

@@ -15,6 +15,8 @@ HAMPEL_BEND, HAMPEL_FALL, HAMPEL_OUT = 2.5, 4.0, 8.0
 LEAST_SCATTER = 0.005
 """Relative scatter taken at least: closer than this no instrument repeats a modulus, and what a curve or a series
 leaves of exact data is no outlier (general knowledge) [-]."""
+MOST_SPENT = 0.75
+"""Parameters of a fit over its values from which what it leaves does not tell their scatter: it has halved that [-]."""
 
 
 @dataclass(frozen=True)
@@ -67,17 +69,33 @@ def hampel_weights(error: FloatArray) -> FloatArray:
     return np.divide(pull, size, out=np.ones_like(size), where=size > HAMPEL_BEND)
 
 
-def row_scatter(frequency: FloatArray, modulus: FloatArray) -> float | None:
+def row_scatter(
+    frequency: FloatArray, modulus: FloatArray, curve: FloatArray | None = None, spent: float = 0.0
+) -> float | None:
     r"""Relative standard deviation of a row from the line through its neighbours [-]; None below three rows.
 
     Gasser, Sroka, Jennen-Steinmetz, Biometrika 73 (1986) 625-633: with
     ``eps_i = a y_{i-1} + b y_{i+1} - y_i`` (linear interpolation of y = ln modulus in x = ln frequency),
     ``sigma^2 = mean of eps_i^2/(a^2 + b^2 + 1)``.
 
+    Parameters
+    ----------
+    frequency : numpy.ndarray
+        Ascending, shape `(n,)` [Hz].
+    modulus : numpy.ndarray
+        At them, shape `(n,)` [Pa].
+    curve : numpy.ndarray, optional
+        A fit to these rows, at them, shape `(n,)` [Pa].
+    spent : float
+        Effective parameters of that fit over the values it was fitted to [-].
+
     Notes
     -----
-    Curvature over three rows counts as noise: at six rows a decade some 0.2 % for a rubber. What is smooth
-    but wrong (two moduli that contradict each other) does not count: that is in the misfit only.
+    Curvature over three rows counts as noise: at six rows a decade some 0.2 % for a rubber, at one a decade 7 %. A
+    fitted curve takes it out: y is ln modulus less ln curve, and sigma is divided by the square root of 1 - `spent`,
+    which the fit has taken of it. Both ways hold the scatter and something beside it, curvature or misfit of the curve:
+    the smaller one counts. What is smooth but wrong (two moduli that contradict each other) does not count: that is in
+    the misfit only.
 
     Examples
     --------
@@ -85,12 +103,16 @@ def row_scatter(frequency: FloatArray, modulus: FloatArray) -> float | None:
     >>> f = np.logspace(0, 4, 9)
     >>> row_scatter(f, 1e6 * f**0.1) < 1e-12
     True
+    >>> bent = 1e6 * np.exp(0.01 * np.log(f) ** 2)
+    >>> row_scatter(f, bent) > 0.01, row_scatter(f, bent, bent) < 1e-12
+    (True, True)
     """
-    squares = _scatter_squares(frequency, modulus)
-    return float(np.sqrt(np.mean(squares))) if squares.size else None
+    return scatter_within(frequency, modulus, np.zeros(frequency.size), curve, spent)
 
 
-def scatter_within(frequency: FloatArray, modulus: FloatArray, group: FloatArray) -> float | None:
+def scatter_within(
+    frequency: FloatArray, modulus: FloatArray, group: FloatArray, curve: FloatArray | None = None, spent: float = 0.0
+) -> float | None:
     """Relative standard deviation of a row from the line through its neighbours in its own group [-].
 
     As `row_scatter` of each group of three rows and more, squares averaged over all; None without such a group.
@@ -104,6 +126,15 @@ def scatter_within(frequency: FloatArray, modulus: FloatArray, group: FloatArray
     >>> row_scatter(f, moduli) > 0.05, scatter_within(f, moduli, group) < 1e-12
     (True, True)
     """
+    bare = _root_mean_square(frequency, modulus, group)
+    if curve is None or bare is None or spent > MOST_SPENT:
+        return bare
+    about = _root_mean_square(frequency, modulus / curve, group)
+    return bare if about is None else min(bare, about / float(np.sqrt(1.0 - spent)))
+
+
+def _root_mean_square(frequency: FloatArray, modulus: FloatArray, group: FloatArray) -> float | None:
+    """Root mean square of the residuals of `row_scatter` in all groups of three rows and more."""
     squares = [
         _scatter_squares(frequency[rows], modulus[rows]) for rows in (group == each for each in np.unique(group))
     ]
