@@ -48,6 +48,7 @@ def test_a_phase_error_travels_to_the_report(tmp_path):
 def test_a_clean_fit_has_nothing_to_say(tmp_path, seed):
     printed, compound = fitted(tmp_path, seed=seed)
     assert "the fit fails" not in printed
+    assert "verdict\n         pass  " in printed
     assert compound.fit.failed == ()
     assert "fails, do not" not in warnings_of(compound)
 

@@ -331,6 +331,22 @@ def test_three_rows_tell_no_scatter(tmp_path: Path):
     assert fitted.noise == (None, None)
     known = {one.name: one.verdict for one in fit_verdict.fit_criteria(fitted)}
     assert known["scatter of E' from row to row"] == "not checked"
+    # 0.1 to 0.26 Hz, where rolls need 150 to 2,500 Hz; what the user insisted on stays a finding
+    assert {"window covers usual carry rolls", "finding few-rows"} <= failing(fitted)
+    criteria = fit_verdict.fit_criteria(fitted)
+    kept = fit_verdict.record_failures(fitted, criteria).compound.fit.failed
+    assert any("accepted by the user" in line for line in kept)
+    assert any("0.1 to 0.26 Hz" in line for line in kept)
+
+
+def test_a_window_covers_usual_rolls_at_the_temperatures_that_it_says(alone):
+    (one,) = (c for c in fit_verdict.fit_criteria(alone) if c.name == "window covers usual carry rolls")
+    low, high = (float(part.removesuffix(" °C")) + 273.15 for part in one.calculated.split(" to "))
+    slow, fast = fit_verdict.ROLL_BAND
+    for kelvin in (low + 0.5, high - 0.5):  # whole degrees are printed
+        first, last = alone.compound.frequencies(kelvin)
+        assert first < slow < fast < last
+    assert one.verdict == "pass"
 
 
 def test_scatter_that_fails_allows_the_series_no_more(tmp_path: Path):

@@ -209,8 +209,7 @@ def fit(
     if write_shift is not None:
         to.add("shift factors", write_shift, {write_shift: summary.shift_table(fitted).encode()})
     _add_exports(fitted.compound, export, to)
-    if to.reported or spec is not None:
-        lines += _verdict_lines((fitted, criteria), spec, said, to)
+    lines += _verdict_lines((fitted, criteria), spec, said, to)
     lines += to.save()
     lines += [
         f'use it by its path in specs and with --compound, or by the name "{path.stem}" with --shelf {path.parent}'
@@ -244,18 +243,23 @@ def _verdict_lines(
     to: Outputs,
 ) -> list[str]:
     """Add the page to sign and the workbook of a fit and its criteria; returns the lines of the verdict."""
-    from conveyor.fitting import fit_page, fit_tables
     from conveyor.fitting.fit_verdict import coverage_criteria
     from conveyor.fitting.fitted_compound import TabulatedCompound
-    from conveyor.spec import load
 
     rubber, criteria = judged
     if isinstance(rubber, TabulatedCompound):
-        raise InputError("-o .xlsx, .html, .pdf, --spec: a Prony table has no measurement to judge")
+        if to.reported or spec is not None:
+            raise InputError("-o .xlsx, .html, .pdf, --spec: a Prony table has no measurement to judge")
+        return []
     if spec is not None:
+        from conveyor.spec import load
+
         criteria = (*criteria, *coverage_criteria(rubber, load(spec)))
-    page = partial(fit_page.build_page, rubber, criteria, said)
-    to.write(fit_tables.fit_contents(rubber, criteria, said), page=page)
+    if to.reported:
+        from conveyor.fitting import fit_page, fit_tables
+
+        page = partial(fit_page.build_page, rubber, criteria, said)
+        to.write(fit_tables.fit_contents(rubber, criteria, said), page=page)
     return ["verdict", *(f"  {one.verdict:>11}  {one.line}" for one in criteria)]
 
 

@@ -58,8 +58,8 @@ class Finding:
 
 def check_findings(
     place: str, curve: tuple[FloatArray, FloatArray, FloatArray], accepted: frozenset[str], shear: float
-) -> tuple[str, ...]:
-    """Refuse a master curve for each finding that is not accepted."""
+) -> tuple[Finding, ...]:
+    """Refuse a master curve for each finding that is not accepted; returns those that are."""
     for name in accepted - FINDINGS.keys():
         raise InputError(f'accept: "{name}" (--accept) is not known; allowed: {", ".join(FINDINGS)}')
     seen = []
@@ -69,7 +69,7 @@ def check_findings(
                 f"{place}: {finding.text}; if it is right as it stands, insist with --accept {finding.name} "
                 f'(accept={{"{finding.name}"}})'
             )
-        seen.append(f"accepted ({finding.name}): {finding.text}")
+        seen.append(finding)
     return tuple(seen)
 
 

@@ -39,6 +39,8 @@ MODULUS_REPEATABILITY: Final = 0.005
 """Repeatability of |E*| of a DMA (general knowledge) [-]."""
 SCATTER_LIMIT: Final = 2.0
 """Largest difference over the scatter of the rows: 95 % of a normal distribution lie within twice [-]."""
+ROLL_BAND: Final = (150.0, 2500.0)
+"""Band of nine tenths of the loss of a carry roll: 159 mm, 4 mm of cover, 5 m/s (docs/rubber.md, section 1) [Hz]."""
 FEWEST_COMMON: Final = 3
 """Least rows of an isotherm within the next one's line: twice their scatter by chance in 2 % of two, 1 % of three."""
 LINE_POINTS: Final = 8
@@ -109,6 +111,8 @@ def fit_criteria(fitted: FittedCompound, conveyor: Conveyor | None = None) -> tu
         Its rolls, speed and temperature set the frequencies that the window must cover.
     """
     made = (
+        _finding_criteria,
+        _window_criteria,
         _noise_criteria,
         _strain_criteria,
         _shift_criteria,
@@ -152,6 +156,39 @@ def _decades_text(value: float) -> str:
 
 def _not_checked(name: str, why: str) -> Criterion:
     return Criterion(name, "", "", "not checked", why)
+
+
+def _finding_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
+    """Findings that the user insisted on: data hardly of rubber stay so."""
+    for one in fitted.accepted:
+        yield Criterion(f"finding {one.name}", "accepted by the user", "no finding", "FAIL", one.text)
+
+
+def _window_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
+    """The band of usual carry rolls within the window, at one temperature of the compound at least."""
+    compound, (slow, fast) = fitted.compound, ROLL_BAND
+    reference = compound.reference
+    low, high = (reference, reference) if compound.range is None else compound.range.kelvin
+    covered = [
+        t
+        for t in np.linspace(low, high, 1 + round(high - low)).tolist()
+        if (window := compound.frequencies(t)) is not None and window[0] <= slow and window[1] >= fast
+    ]
+    name, required = "window covers usual carry rolls", f"{slow:,.0f} to {fast:,.0f} Hz"
+    if covered:
+        yield Criterion(
+            name, _span_text(covered[0], covered[-1]), required, "pass", "temperatures of the belt at which it does"
+        )
+        return
+    first, last = fitted.fit.window
+    calculated = f"{first:.2g} to {last:.2g} Hz at {to_celsius(reference):.4g} °C"
+    why = f"it has {np.log10(last / first):.1f} decades: measure more temperatures, or more frequencies"
+    yield Criterion(name, calculated, required, "FAIL", why)
+
+
+def _span_text(low: float, high: float) -> str:
+    """Temperatures [K] from low to high, for messages."""
+    return " to ".join(dict.fromkeys(f"{to_celsius(t):.0f} °C" for t in (low, high)))
 
 
 def _noise_criteria(fitted: FittedCompound) -> Iterator[Criterion]:

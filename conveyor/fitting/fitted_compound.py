@@ -19,7 +19,7 @@ from conveyor.fitting.compound_file import (
     describe_strain,
     modulus_text,
 )
-from conveyor.fitting.findings import check_findings
+from conveyor.fitting.findings import Finding, check_findings
 from conveyor.fitting.measured_rows import (
     CURVE_KINDS,
     MeasuredRows,
@@ -92,6 +92,8 @@ class FittedCompound:
         Remarks of the files by their keys.
     amplitudes : tuple of StrainAmplitudes
         Strain of each file that states it.
+    accepted : tuple of Finding
+        Findings that are refused unless accepted, and were.
     """
 
     compound: RubberCompound
@@ -105,6 +107,7 @@ class FittedCompound:
     files: tuple[str, ...]
     metadata: Mapping[str, str]
     amplitudes: tuple[StrainAmplitudes, ...] = ()
+    accepted: tuple[Finding, ...] = ()
 
     @property
     def noise(self) -> tuple[float | None, float | None]:
@@ -221,6 +224,7 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> FittedCompound:
     f, e1, e2 = rows.curve
     place = ", ".join(each.source for each in read)
     accepted = check_findings(place, (f, e1, e2), request.accept, 2.0 * (1.0 + request.poisson_ratio))
+    insisted = tuple(f"accepted ({one.name}): {one.text}" for one in accepted)
     fit = fit_prony(
         f, e1, e2, terms_per_decade=request.terms_per_decade, equilibrium=request.equilibrium,
         storage_error=request.storage_error, loss_error=request.loss_error,
@@ -235,7 +239,7 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> FittedCompound:
     if request.replicas:
         band = bootstrap(fit, superposition, rows.temperature, law=maker, replicas=request.replicas)
     described = describe_fit(read, (request, at_strain), (reference, fit), (band, rows))
-    described["fit"]["method"] = "; ".join([described["fit"]["method"], *accepted, *said, *told])
+    described["fit"]["method"] = "; ".join([described["fit"]["method"], *insisted, *said, *told])
     add_shift(described, superposition, shifts, law)
     if strains is not None:
         described["strain_dependence"] = describe_strain(at_strain, strains)
@@ -251,7 +255,7 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> FittedCompound:
         laws=laws,
         understood=(
             *(f"{Path(file.source).name}: {line}" for file in files for line in file.understood),
-            *(*told, *accepted),
+            *(*told, *insisted),
             *(f"{each.place}: the master curve was measured at {each.text}" for each in amplitudes),
         ),
         entropic_floor=advised,
@@ -259,6 +263,7 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> FittedCompound:
         files=tuple(Path(each.source).name for each in read),
         metadata={key: value for each in reversed(files) for key, value in each.metadata.items()},
         amplitudes=amplitudes,
+        accepted=accepted,
     )
 
 
