@@ -9,6 +9,7 @@ from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks.check import Check, check_against_limit
 from conveyor.laws.pulley import HUB_SLOPE, SHAFT_SAFETY
 from conveyor.laws.transition import HALF_TROUGH
+from conveyor.line.bend_pulleys import name_pulley
 from conveyor.loop.belt_duty import TransitionCheck
 from conveyor.units.sentences import Message, escape_braces, message, percent
 
@@ -25,7 +26,7 @@ def pulley_diameter(result: CalculatedConveyor) -> Iterator[Check]:
             group += f" at {percent(pulley.utilisation)} of the allowed tension"
         words = f'pulley "{name}" is {{}} in diameter, the carcass requires {{}}{size} ({group})'
         yield check_against_limit(
-            "pulley_diameter", f"diameter, {name} pulley", pulley.diameter, "at least", pulley.least, "thickness",
+            "pulley_diameter", f"diameter, {name_pulley(name)}", pulley.diameter, "at least", pulley.least, "thickness",
             source=group, why=Message(words, tuple(figures)),
         )  # fmt: skip
 
@@ -77,10 +78,10 @@ def pulley_shaft(result: CalculatedConveyor) -> Iterator[Check]:
         cure = "; {} in the hubs (hub_shaft_diameter) are needed" if needed else ""
         why = message(f'the shaft of pulley "{name}" bends too much at its hubs{cure}', *needed)
         yield check_against_limit(
-            "pulley_shaft_slope", f"slope at the hubs, {name} pulley", duty.slope, "at most", HUB_SLOPE, "number",
+            "pulley_shaft_slope", f"slope at the hubs, {name_pulley(name)}", duty.slope, "at most", HUB_SLOPE, "number",
             source="CEMA B105.1", wording=message(f"{duty.slope:.4f}"), why=why, where=where,
         )  # fmt: skip
-        subject = message(f"safety of the shaft, {name} pulley")
+        subject = message(f"safety of the shaft, {name_pulley(name)}")
         asked = message("at least {} (CEMA B105.1)", (SHAFT_SAFETY, "number"))
         if duty.safety is None:
             yield Check(
@@ -102,8 +103,8 @@ def pulley_bearings(result: CalculatedConveyor) -> Iterator[Check]:
         if seconds is None:
             continue
         yield check_against_limit(
-            "pulley_bearings", f"L10 life of a bearing, {name} pulley", seconds, "at least", duty.pulley.bearing_life,
-            "duration", missing="life asked of it (bearing_life) not given",
+            "pulley_bearings", f"L10 life of a bearing, {name_pulley(name)}", seconds, "at least",
+            duty.pulley.bearing_life, "duration", missing="life asked of it (bearing_life) not given",
             why=f'the bearings of pulley "{name}" reach an L10 of {{calculated}}, {{required}} are required',
         )  # fmt: skip
 
@@ -114,7 +115,7 @@ def lagging_pressure(result: CalculatedConveyor) -> Iterator[Check]:
         allowed, name = duty.pulley.allowed_pressure, escape_braces(duty.pulley.name)
         if allowed is not None:
             yield check_against_limit(
-                "lagging_pressure", f"pressure on the lagging, {name} pulley", duty.pressure, "at most", allowed,
+                "lagging_pressure", f"pressure on the lagging, {name_pulley(name)}", duty.pressure, "at most", allowed,
                 "pressure", why=f'the belt presses with {{calculated}} on the lagging of pulley "{name}", it bears '
                 "{required}; a larger diameter",
             )  # fmt: skip

@@ -58,6 +58,15 @@ class TransitionZone:
         return self.end if self.strand == "carry" else f"{self.end}, return"
 
 
+def name_pulley(name: str) -> str:
+    """Name of a pulley for sentences: with the word, once.
+
+    >>> name_pulley("head"), name_pulley("take-up pulley")
+    ('head pulley', 'take-up pulley')
+    """
+    return name if name.lower().endswith("pulley") else f"{name} pulley"
+
+
 def bend_pulleys(conveyor: Conveyor, places: LoopPositions) -> tuple[BendPulley, ...]:
     """Pulleys of a conveyor, by default the usual ones."""
     pulleys, assumed = usual_parts.route_pulleys(conveyor)

@@ -10,6 +10,7 @@ from typing import Final
 from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.checks import Check, run_checks, severity_rank
 from conveyor.errors import NoSolutionError
+from conveyor.line.bend_pulleys import name_pulley
 from conveyor.loop.balance import Balance, close_loops, with_take_up_at
 from conveyor.loop.load_superposition import Loading
 from conveyor.loop.loop_layout import TakeUpSetting
@@ -180,7 +181,7 @@ def _criterion_ranks(load: Load, checks: Iterable[Check]) -> Iterator[tuple[tupl
         yield (check.key, check.subject.text()), severity_rank(check)
     figures = governing_figures(load)
     for duty in load.found.pulley_duty:
-        figures[f"load of the {duty.pulley.name} pulley"] = duty.largest.resultant
+        figures[f"load of the {name_pulley(duty.pulley.name)}"] = duty.largest.resultant
     for zone in load.found.belt_duty.transitions:
         for what, least in (("stretched", zone.stretched), ("slackened", zone.slackened)):
             figures[f"length of the {zone.zone.name} transition, strips {what}"] = least or 0.0

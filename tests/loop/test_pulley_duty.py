@@ -9,7 +9,13 @@ import pytest
 
 from conveyor import analyse
 from conveyor.calculated_conveyor import CalculatedConveyor
-from conveyor.checks.pulley_checks import belt_transitions, lagging_pressure, pulley_bearings, pulley_shaft
+from conveyor.checks.pulley_checks import (
+    belt_transitions,
+    lagging_pressure,
+    pulley_bearings,
+    pulley_diameter,
+    pulley_shaft,
+)
 from conveyor.errors import InputError
 from conveyor.forces import rubber_free_forces
 from conveyor.laws.pulley import hub_moment, least_shaft_diameter, shaft_safety, shaft_slope
@@ -329,3 +335,15 @@ def test_pulleys_of_a_belt_without_a_strength_are_for_all_of_it():
     least = {name: check.least for name, check in pulleys.items()}
     whole = 145 * 0.005
     assert least == pytest.approx({"head": whole, "bend": 0.8 * whole, "tail": 0.8 * whole, "snub": 0.63 * whole})
+
+
+def test_a_name_that_ends_in_pulley_says_so_once():
+    given = HEAD | SHAFT | {"name": "Head Pulley", "bearing_life": "40000 h", "lagging_pressure": "1 MPa"}
+    found = with_pulleys(given, TAIL)
+    criteria = (pulley_diameter, pulley_shaft, pulley_bearings, lagging_pressure)
+    subjects = [check.subject.text() for criterion in criteria for check in criterion(found)]
+    assert subjects == [
+        "diameter, Head Pulley", "diameter, tail pulley", "slope at the hubs, Head Pulley",
+        "safety of the shaft, Head Pulley", "L10 life of a bearing, Head Pulley",
+        "pressure on the lagging, Head Pulley",
+    ]  # fmt: skip
