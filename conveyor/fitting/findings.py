@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -50,24 +50,35 @@ _LOGARITHM_RANGE: Final = (-3.0, 12.0)
 
 @dataclass(frozen=True)
 class Finding:
-    """One of `FINDINGS`, with its observation and advice."""
+    """One of `FINDINGS`, with its observation and advice; `place` is its file where it is of one of several."""
 
     name: str
     text: str
+    place: str = ""
+
+
+def check_accepted(accepted: frozenset[str]) -> None:
+    """Refuse names of findings that are not known."""
+    for name in accepted - FINDINGS.keys():
+        raise InputError(f'accept: "{name}" (--accept) is not known; allowed: {", ".join(FINDINGS)}')
 
 
 def check_findings(
     place: str, curve: tuple[FloatArray, FloatArray, FloatArray], accepted: frozenset[str], shear: float
 ) -> tuple[Finding, ...]:
     """Refuse a master curve for each finding that is not accepted; returns those that are."""
-    for name in accepted - FINDINGS.keys():
-        raise InputError(f'accept: "{name}" (--accept) is not known; allowed: {", ".join(FINDINGS)}')
+    check_accepted(accepted)
+    return refuse_findings(place, _curve_findings(*curve, shear=shear), accepted)
+
+
+def refuse_findings(place: str, findings: Iterable[Finding], accepted: frozenset[str]) -> tuple[Finding, ...]:
+    """Refuse each finding that is not accepted; returns those that are."""
     seen = []
-    for finding in _curve_findings(*curve, shear=shear):
+    for finding in findings:
         if finding.name not in accepted:
             raise InputError(
-                f"{place}: {finding.text}; if it is right as it stands, insist with --accept {finding.name} "
-                f'(accept={{"{finding.name}"}})'
+                f"{finding.place or place}: {finding.text}; if it is right as it stands, insist with --accept "
+                f'{finding.name} (accept={{"{finding.name}"}})'
             )
         seen.append(finding)
     return tuple(seen)

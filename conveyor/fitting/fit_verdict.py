@@ -14,6 +14,7 @@ from conveyor.errors import ConveyorError
 from conveyor.fitting.amplitude import UNLIKE_STRAINS, amplitude_ratio, strain_text
 from conveyor.fitting.findings import DOUBTFUL_RESIDUAL, SCATTER_MARGIN
 from conveyor.fitting.fitted_compound import FittedCompound
+from conveyor.fitting.levels import LEVEL_LIMIT
 from conveyor.fitting.measured_rows import MeasuredRows
 from conveyor.fitting.shift_choice import slope_text
 from conveyor.models import Conveyor
@@ -115,6 +116,7 @@ def fit_criteria(fitted: FittedCompound, conveyor: Conveyor | None = None) -> tu
         _window_criteria,
         _noise_criteria,
         _strain_criteria,
+        _sweep_criteria,
         _shift_criteria,
         _shape_criteria,
         _collapse_criteria,
@@ -216,6 +218,19 @@ def _strain_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
     low, high = min(known, key=lambda one: one.low), max(known, key=lambda one: one.high)
     why = f"{strain_text(low.low)} to {strain_text(high.high)}: filled rubber softens with strain, measure all at one"
     yield _at_most(name, amplitude_ratio(known), UNLIKE_STRAINS, lambda v: f"a factor of {v:.3g}", why)
+
+
+def _sweep_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
+    """E' of the strain sweeps beside that of the master curve."""
+    if fitted.compound.strain_dependence is None:
+        return
+    name = "strain sweeps beside the master curve"
+    if not fitted.levels:
+        yield _not_checked(name, "no sweep within the window and the shift factors")
+        return
+    worst = max(fitted.levels, key=lambda one: one.factor)
+    where = f"at {to_celsius(worst.temperature):.0f} °C; another rubber, temperature, strain, or E and G"
+    yield _at_most(name, worst.factor, LEVEL_LIMIT, lambda v: f"a factor of {v:.3g}", where)
 
 
 def _shift_criteria(fitted: FittedCompound) -> Iterator[Criterion]:

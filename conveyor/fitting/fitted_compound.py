@@ -19,7 +19,8 @@ from conveyor.fitting.compound_file import (
     describe_strain,
     modulus_text,
 )
-from conveyor.fitting.findings import Finding, check_findings
+from conveyor.fitting.findings import Finding, check_accepted, check_findings, refuse_findings
+from conveyor.fitting.levels import SweepLevel, file_level_findings, sweep_level_findings, sweep_levels
 from conveyor.fitting.measured_rows import (
     CURVE_KINDS,
     MeasuredRows,
@@ -94,6 +95,8 @@ class FittedCompound:
         Strain of each file that states it.
     accepted : tuple of Finding
         Findings that are refused unless accepted, and were.
+    levels : tuple of SweepLevel
+        E' of the strain sweeps beside that of the master curve.
     """
 
     compound: RubberCompound
@@ -108,6 +111,7 @@ class FittedCompound:
     metadata: Mapping[str, str]
     amplitudes: tuple[StrainAmplitudes, ...] = ()
     accepted: tuple[Finding, ...] = ()
+    levels: tuple[SweepLevel, ...] = ()
 
     @property
     def noise(self) -> tuple[float | None, float | None]:
@@ -223,8 +227,13 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> FittedCompound:
     rows, superposition, told = master_curve_rows(read, shifts, reference, request)
     f, e1, e2 = rows.curve
     place = ", ".join(each.source for each in read)
-    accepted = check_findings(place, (f, e1, e2), request.accept, 2.0 * (1.0 + request.poisson_ratio))
-    insisted = tuple(f"accepted ({one.name}): {one.text}" for one in accepted)
+    shear = 2.0 * (1.0 + request.poisson_ratio)
+    check_accepted(request.accept)
+    apart = file_level_findings(rows, read, shear)
+    accepted = (
+        *refuse_findings(place, apart, request.accept),
+        *check_findings(place, (f, e1, e2), request.accept, shear),
+    )
     fit = fit_prony(
         f, e1, e2, terms_per_decade=request.terms_per_decade, equilibrium=request.equilibrium,
         storage_error=request.storage_error, loss_error=request.loss_error,
@@ -239,16 +248,23 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> FittedCompound:
     if request.replicas:
         band = bootstrap(fit, superposition, rows.temperature, law=maker, replicas=request.replicas)
     described = describe_fit(read, (request, at_strain), (reference, fit), (band, rows))
-    described["fit"]["method"] = "; ".join([described["fit"]["method"], *insisted, *said, *told])
     add_shift(described, superposition, shifts, law)
     if strains is not None:
         described["strain_dependence"] = describe_strain(at_strain, strains)
         described["missing"].remove("strain dependence")
         if short := short_sweep_note(strains):
             described["missing"].append(short)
+    shifted_by = Path((shifts or read[0]).source)
+    levels: tuple[SweepLevel, ...] = ()
+    if strains is not None:
+        levels = sweep_levels(_build_compound(described, shifted_by))
+        found = sweep_level_findings(levels, strains, shear)
+        accepted += refuse_findings(place, found, request.accept)
+    insisted = tuple(f"accepted ({one.name}): {one.text}" for one in accepted)
+    described["fit"]["method"] = "; ".join([described["fit"]["method"], *insisted, *said, *told])
     files = [file for file in (*read, shifts, strains) if file is not None]
     return FittedCompound(
-        compound=_build_compound(described, Path((shifts or read[0]).source)),
+        compound=_build_compound(described, shifted_by),
         fit=fit,
         consistency=kramers_kronig(f, e1, e2) if kramers_kronig_applicable(f) else None,
         superposition=superposition,
@@ -264,6 +280,7 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> FittedCompound:
         metadata={key: value for each in reversed(files) for key, value in each.metadata.items()},
         amplitudes=amplitudes,
         accepted=accepted,
+        levels=levels,
     )
 
 
