@@ -116,3 +116,12 @@ def test_names_in_quotes_and_paths_are_not_translated():
     )
     assert translator.text('"return" of return') == '"return" von Untertrum'
     assert translator.text("idlers.return: return") == "idlers.return: Untertrum"
+
+
+@pytest.mark.parametrize("language", TRANSLATED)
+def test_pulleys_that_stand_in_for_missing_ones_have_names(language):
+    words = report_translator(language)
+    for name in ("head", "bend 1", "take-up", "bend 2", "tail"):
+        for text in (name, f"wrap, {name}", f"bearings, {name}"):
+            assert name not in words.text(text)
+    assert words.missing == {}
