@@ -11,7 +11,7 @@ import pytest
 
 from conveyor import shelf
 from conveyor.errors import InputError
-from conveyor.fitting import fit_page, fit_verdict, summary
+from conveyor.fitting import fit_page, fit_tables, fit_verdict, summary
 from conveyor.fitting.findings import FINDINGS
 from conveyor.fitting.fitted_compound import Request, fit_file
 from conveyor.laboratory import read_dma
@@ -163,6 +163,33 @@ def test_the_law_that_is_asked_for_is_kept_and_lays_the_rows(alone):
     assert arrhenius.fit.residual > 3.0 * alone.fit.residual
     with pytest.raises(InputError, match="no vertical shift"):
         fit_file(FILES[0], Request("x", AT, law="wlf", vertical=True))
+
+
+def test_the_number_of_terms_follows_the_rule_that_is_printed(alone):
+    at = next(k for k, line in enumerate(summary.summary_lines(alone)) if "within 2 of the lowest AICc" in line)
+    chosen, *others = [line.split() for line in summary.summary_lines(alone)[at + 1 : at + 7]]
+    assert len(chosen) == 6  # per decade, penalty, terms, effective parameters, residual, score
+    near = [one for one in others if float(one[5]) <= min(float(x[5]) for x in (chosen, *others)) + 2.0]
+    assert all((int(chosen[2]), float(chosen[3])) <= (int(one[2]), float(one[3])) for one in near)
+
+
+@pytest.mark.parametrize("law", ["wlf", "arrhenius"])
+def test_the_constants_of_a_law_stand_in_every_output(law):
+    fitted = fit_file(FILES[0], Request("x", "25 degC", replicas=0, law=law))
+    kept = fitted.compound.shift
+    constants = (
+        f"c1 {kept.c1:.4g}, c2 {float(str(kept.c2).split()[0]):.4g} K at 25 °C"
+        if law == "wlf"
+        else f"activation energy {float(str(kept.activation_energy).split()[0]):.4g} kJ/mol at 25 °C"
+    )
+    criteria = fit_verdict.fit_criteria(fitted)
+    assert any(constants in line for line in summary.summary_lines(fitted))
+    assert fit_page.build_page(fitted, criteria, {}).count(constants) == 2  # of the law kept, and in the table of laws
+    contents = fit_tables.fit_contents(fitted, criteria, {})
+    facts = {row[0]: row[1] for row in contents["about"].rows}
+    assert facts["shift law kept"] == f"{'WLF' if law == 'wlf' else 'Arrhenius'}: {constants}"
+    laws = contents["laws"]
+    assert constants in [laws.columns[1].get(row) for row in laws.rows]
 
 
 def test_a_law_has_its_error_in_the_band(tmp_path: Path):

@@ -11,6 +11,7 @@ import numpy as np
 from conveyor.files import output_marks
 from conveyor.fitting.fit_verdict import GLOSSARY, Criterion, compound_law
 from conveyor.fitting.fitted_compound import FittedCompound
+from conveyor.fitting.shift_choice import law_constants
 from conveyor.models.given_names import given_names
 from conveyor.models.report import Paper
 from conveyor.report.table_model import Column, Contents, ReportHead, Table
@@ -80,7 +81,10 @@ def fit_facts(fitted: FittedCompound) -> list[tuple[str, str]]:
     """Main facts of a fit, label and text."""
     fit, compound = fitted.fit, fitted.compound
     low, high = fit.window
-    law = compound_law(fitted).name if fitted.laws else "none"
+    law = "none"
+    if fitted.laws:
+        kept = compound_law(fitted)
+        law = ": ".join(filter(None, (kept.name, law_constants(kept, compound.reference))))
     kelvin = () if compound.range is None else compound.range.kelvin
     return [
         ("window", f"{low:.2g} to {high:.2g} Hz at {to_celsius(compound.reference):.4g} °C"),
@@ -107,9 +111,10 @@ def shift_factor_table(fitted: FittedCompound) -> Table:
 
 
 def law_table(fitted: FittedCompound) -> Table:
-    """Misfit of each shift law."""
+    """Constants and misfit of each shift law."""
     columns = (
         Column("law", "text", "name"),
+        Column("constants", "text", lambda law: law_constants(law, fitted.compound.reference)),
         Column("rms", "decades", "rms"),
         Column("worst", "decades", "worst"),
         Column("at", "temperature", "worst_temperature"),

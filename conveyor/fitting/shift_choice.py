@@ -152,6 +152,19 @@ def chosen_law(laws: Sequence[ShiftComparison], reference: float, request: Reque
     raise InputError(f"--law {request.law}: the shifts do not follow it: {law_asked.remark}")
 
 
+def law_constants(comparison: ShiftComparison, reference: float) -> str:
+    """Constants of a formula of a_T with its reference temperature, that of the master curve [K]; "" for the table."""
+    law = comparison.law
+    if not isinstance(law, WLF | Arrhenius):
+        return ""
+    if isinstance(law, Arrhenius) or law.c2 + reference > law.reference:
+        law = _law_at_reference(law, reference)
+    at = f"at {to_celsius(law.reference):.4g} °C"
+    if isinstance(law, WLF):
+        return f"c1 {law.c1:.4g}, c2 {law.c2:.4g} K {at}"
+    return f"activation energy {law.activation_energy / 1e3:.4g} kJ/mol {at}"
+
+
 def _law_at_reference(law: WLF | Arrhenius, reference: float) -> WLF | Arrhenius:
     """Same law with a_T = 1 at another temperature [K]."""
     if isinstance(law, Arrhenius):

@@ -8,9 +8,10 @@ import numpy as np
 
 from conveyor.errors import InputError
 from conveyor.fitting.fitted_compound import FittedCompound, TabulatedCompound
-from conveyor.fitting.shift_choice import slope_text
+from conveyor.fitting.shift_choice import law_constants, slope_text
 from conveyor.report.matplotlib_settings import own_settings
 from conveyor.report.plots import add_legend, curve_colour, master_curve, stacked_axes
+from conveyor.rubber.term_count import AICC_SUPPORT
 from conveyor.rubber.time_temperature import OUTLIER_TRUST
 from conveyor.units import text
 from conveyor.units.sentences import percent, to_celsius
@@ -139,8 +140,9 @@ def _law_lines(fitted: FittedCompound) -> Iterator[str]:
     if fitted.laws:
         yield "shift laws"
     for law in fitted.laws:
+        constants = law_constants(law, fitted.compound.reference)
         yield (
-            f"  {law.name}: rms {law.rms:.2f}, worst {law.worst:+.2f} decades at "
+            f"  {law.name}: {constants}{'; ' * bool(constants)}rms {law.rms:.2f}, worst {law.worst:+.2f} decades at "
             f"{to_celsius(law.worst_temperature):.0f} "
             f"degC; leave-one-out error {law.left_out:.2f} decades"
         )
@@ -186,7 +188,10 @@ def _criterion_lines(fitted: FittedCompound) -> Iterator[str]:
     candidates = fitted.fit.candidates
     if len(candidates) < 2:
         return
-    yield "  number of terms by AICc, chosen first: per decade, penalty, terms, effective parameters, residual, score"
+    yield (
+        f"  number of terms, chosen first: the fewest of all solids within {AICC_SUPPORT:g} of the lowest AICc, "
+        "which is a tie; per decade, penalty, terms, effective parameters, residual, score"
+    )
     for candidate in candidates[:_MOST_CANDIDATES]:
         yield (
             f"    {candidate.terms_per_decade:5.2f} {candidate.regularisation:7.3g} {candidate.terms:4d} "
