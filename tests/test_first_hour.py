@@ -86,10 +86,16 @@ def test_the_carcass_by_its_makers_name(tmp_path: Path, written: str, meant: str
     assert f'did you mean "{meant}"?' in changed(tmp_path, "kind: steel cord", f"kind: {written}")
 
 
-def test_a_density_mistaken_by_a_thousand_is_named_beside_the_flow(tmp_path: Path) -> None:
+def test_a_density_mistaken_by_a_thousand_is_refused_at_its_field(tmp_path: Path) -> None:
     density = GOOD.split("density: ")[1].split(" kg/m^3")[0]
     said = changed(tmp_path, f"density: {density} kg/m^3", "density: 0.85 kg/m^3")
-    assert "and 0.85 kg/m^3 (material.density) needs a cross-section of" in said
+    assert "material.density: got 0.85 kg/m^3, allowed: >= 10 kg/m^3" in said
+
+
+def test_a_density_too_small_for_the_flow_is_named_beside_it(tmp_path: Path) -> None:
+    density = GOOD.split("density: ")[1].split(" kg/m^3")[0]
+    said = changed(tmp_path, f"density: {density} kg/m^3", "density: 85 kg/m^3")
+    assert "and 85 kg/m^3 (material.density) needs a cross-section of" in said
 
 
 @pytest.mark.parametrize(
