@@ -38,25 +38,9 @@ SHAFT_DIAMETERS: Final = tuple(
 """Diameters of shafts, by the bores of bearings in housings [m]; general knowledge."""
 CEMA_SHAFTS: Final = tuple(
     _INCH * inches
-    for inches in (
-        1.4375,
-        1.9375,
-        2.1875,
-        2.4375,
-        2.9375,
-        3.4375,
-        3.9375,
-        4.4375,
-        4.9375,
-        5.4375,
-        6.0,
-        6.5,
-        7.0,
-        7.5,
-        8.0,
-        *range(9, 41),
-    )
-)
+    for inches in (1.4375, 1.9375, 2.1875, 2.4375, 2.9375, 3.4375, 3.9375, 4.4375, 4.9375, 5.4375, 6.0, 6.5, 7.0, 7.5,
+                   8.0, *range(9, 41))
+)  # fmt: skip
 """The same in the US, CEMA B105.1 as commonly listed [m]; general knowledge."""
 _SURFACE, _RELIABILITY = 0.8, 0.897  # [-], CEMA B105.1: machined shaft, 90 %
 _SIZE_EXPONENT = -0.19  # CEMA B105.1: k_b = D^-0.19, D in inches

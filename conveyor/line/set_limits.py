@@ -66,10 +66,9 @@ class SetLimits:
         given, belt_width = stretch.idlers, line.belt.width
         usual = usual_lump_factor(line.lump, line.weight_density)  # Sandvik's: of belt and bulk; CEMA's of bulk alone
         lumps, whole = given.lump_factor or usual, given.lump_factor is None and stretch.bulk_mass > 0.0
-        load = math.fsum(
-            ((lumps or 1.0) if whole else 1.0) * roll.belt_force + (lumps or 1.0) * roll.bulk_force
-            for roll in stretch.loads
-        )
+        of_bulk = lumps or 1.0
+        of_belt = of_bulk if whole else 1.0
+        load = math.fsum(of_belt * roll.belt_force + of_bulk * roll.bulk_force for roll in stretch.loads)
         load += raised_set_load(max(tension, 0.0), height=raised_height(stretch), spacing=stretch.spacing)
         ratings = {
             name: rating for name in CEMA_CLASSES if (rating := _class_rating(name, stretch, belt_width)) is not None

@@ -28,7 +28,7 @@ SHAFT_DIAMETER_RATIO: Final = 0.2  # [-], general knowledge: over the pulley's d
 _Place = Literal["head", "take-up", "tail"]
 _ENDS: Final[tuple[Literal["head", "tail"], ...]] = ("head", "tail")
 _LOOP_KINDS: Final = frozenset({"gravity", "winch", "locked winch"})  # general knowledge: with pulleys of their own
-_TAKE_UP_WRAPS: Final = {"bend 1": "90 deg", "take-up": "180 deg", "bend 2": "90 deg"}  # general knowledge
+TAKE_UP_WRAPS: Final = {"bend 1": "90 deg", "take-up": None, "bend 2": "90 deg"}  # else half a turn; general knowledge
 
 
 def route_feeding_points(conveyor: Conveyor) -> tuple[tuple[Feeding, ...], bool]:
@@ -76,7 +76,7 @@ def _take_up_pulleys(conveyor: Conveyor) -> tuple[Pulley, ...]:
     if take_up is None or take_up.kind not in _LOOP_KINDS or take_up.position == "tail":
         return ()
     diameter = pulley_group_diameter(_least_diameter(conveyor), group="B")
-    return tuple(_usual_pulley(name, "take-up", diameter, wrap) for name, wrap in _TAKE_UP_WRAPS.items())
+    return tuple(_usual_pulley(name, "take-up", diameter, wrap) for name, wrap in TAKE_UP_WRAPS.items())
 
 
 def _end_diameter(conveyor: Conveyor, end: str) -> float:

@@ -10,7 +10,7 @@ from typing import Any, Final
 
 from conveyor.laws.preliminary_sizing import PULLEY_MASS
 from conveyor.laws.pulley import Steel
-from conveyor.line.usual_parts import SHAFT_DIAMETER_RATIO
+from conveyor.line.usual_parts import SHAFT_DIAMETER_RATIO, TAKE_UP_WRAPS
 from conveyor.models import Conveyor
 from conveyor.models.base import given_data
 from conveyor.models.maker_lists import ListedItem
@@ -27,13 +27,11 @@ SHAFT_STEEL: Final[Steel] = "C1045"
 
 
 _PULLEYS: Final = tuple(
-    (place, {"name": name, "position": place} | wrapped)
-    for name, place, wrapped in (
-        ("head", "head", {}),
-        ("bend 1", "take-up", {"wrap_angle": "90 deg"}),
-        ("take-up", "take-up", {}),
-        ("bend 2", "take-up", {"wrap_angle": "90 deg"}),
-        ("tail", "tail", {}),
+    (place, {"name": name, "position": place} | ({} if wrap is None else {"wrap_angle": wrap}))
+    for name, place, wrap in (
+        ("head", "head", None),
+        *((name, "take-up", wrap) for name, wrap in TAKE_UP_WRAPS.items()),
+        ("tail", "tail", None),
     )
 )
 """Place, name and wrap of every pulley: the take-up hangs in the belt's loop between two bends."""
