@@ -25,6 +25,11 @@ SERIES_DIGITS = 12
 _BAND_DIGITS = 6  # the band is known to one or two
 _ERROR_DECIMALS = 8  # of a relative error: an exact fit leaves rounding, which is none
 _NOT_STATED = "not stated"
+_STATED_EXAMPLES = {
+    "temperature": ("temperature [degC]", "temperature: 20 degC"),
+    "frequency": ("frequency [Hz]", "frequency: 1 Hz"),
+}
+"""Header of a column, and line above the table, of what a strain sweep needs beside its strains."""
 
 
 def describe_fit(
@@ -182,12 +187,14 @@ def describe_strain(reference: str | None, sweeps: DmaData) -> dict[str, Any]:
     runs = [run for run in sweeps.strain_sweeps() if run.strain.size >= FEWEST_STRAINS]
     if not runs:
         raise InputError(f"{sweeps.source}: no sweep of {FEWEST_STRAINS} strains and more is in it")
-    columns = {"temperature": "temperature [degC]", "frequency": "frequency [Hz]"}
-    unknown = [name for name in columns if any(getattr(run, name) is None for run in runs)]
+    unknown = [name for name in _STATED_EXAMPLES if any(getattr(run, name) is None for run in runs)]
     if unknown:
+        headers, lines = zip(*(_STATED_EXAMPLES[name] for name in unknown), strict=True)
         raise InputError(
             f"{sweeps.source}: {' and '.join(unknown)} of the strain sweep not stated; give every row "
-            + " and ".join(f'a column "{columns[name]}"' for name in unknown)
+            + " and ".join(f'a column "{header}"' for header in headers)
+            + ", or write above the table "
+            + " and ".join(f'"{line}"' for line in lines)
         )
     return {
         "reference_strain": reference,

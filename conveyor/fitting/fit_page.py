@@ -88,6 +88,7 @@ def _figure_tables(fitted: FittedCompound) -> list[Html]:
         fit_tables.shift_factor_table(fitted),
         fit_tables.law_table(fitted),
         fit_tables.file_table(fitted),
+        fit_tables.strain_sweep_table(fitted),
     )
     return [table_html(shown, shown.heading) for shown in every if shown.rows]
 

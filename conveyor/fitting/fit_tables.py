@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from operator import itemgetter
 from typing import Final
 
 import numpy as np
 
 from conveyor.files import output_marks
+from conveyor.fitting.amplitude import WORKING_STRAIN, strain_text
 from conveyor.fitting.fit_verdict import GLOSSARY, Criterion, compound_law
 from conveyor.fitting.fitted_compound import FittedCompound
 from conveyor.fitting.shift_choice import law_constants
 from conveyor.models.given_names import given_names
 from conveyor.models.report import Paper
 from conveyor.report.table_model import Column, Contents, ReportHead, Table
+from conveyor.rubber import StrainSweep
 from conveyor.units.sentences import percent, to_celsius
 
 DOCUMENT_FIELDS: Final = ("laboratory", "number", "specimen", "instrument", "method", "measured", "by")
@@ -44,7 +46,7 @@ def fit_contents(
         criteria_table(criteria),
         Table("about", "Verdict", "The master curve", plain, (*about.items(), *fit_facts(fitted))),
         shift_factor_table(fitted), law_table(fitted), file_table(fitted), master_curve_table(fitted),
-        series_table(fitted),
+        series_table(fitted), strain_sweep_table(fitted),
         Table("read", "Read and done", "What was read and done", plain[1:], tuple(("", w) for w in fitted.understood)),
         Table("unknown", "Read and done", "Not known", plain[1:], tuple(("", w) for w in fitted.compound.missing)),
         Table("glossary", "Glossary", "Glossary", plain, GLOSSARY),
@@ -138,6 +140,37 @@ def file_table(fitted: FittedCompound) -> Table:
     )
     numbers = tuple(k for k in range(len(fitted.files)) if (fitted.rows.file == k).any())
     return Table("files", "Files", "Error of the series, file by file", columns, numbers)
+
+
+def strain_sweep_table(fitted: FittedCompound) -> Table:
+    """Strain sweeps: what was measured, its scatter, E' beside the master curve, and the factors under rolls."""
+    factors = fitted.compound.amplitude_factors()
+    levels = {(one.temperature, one.frequency): one.ratio for one in fitted.levels}
+
+    def factor(name: str) -> Callable[[StrainSweep], float | None]:
+        def at(sweep: StrainSweep) -> float | None:
+            if factors is None or sweep.strain[-1] < WORKING_STRAIN:
+                return None
+            return float(getattr(factors, name)(WORKING_STRAIN, sweep.temperature))
+
+        return at
+
+    def scatter(k: int) -> Callable[[StrainSweep], float | None]:
+        return lambda sweep: None if sweep.scatter is None else sweep.scatter[k]
+
+    columns = (
+        Column("temperature", "temperature", "temperature"),
+        Column("frequency", "frequency", "frequency"),
+        Column("strains", "count", lambda sweep: sweep.strain.size),
+        Column("lowest", "share", lambda sweep: float(sweep.strain[0])),
+        Column("largest", "share", lambda sweep: float(sweep.strain[-1])),
+        Column("scatter of E'", "share", scatter(0), key="storage_scatter"),
+        Column("scatter of E''", "share", scatter(1), key="loss_scatter"),
+        Column("E' over that of the master curve", "ratio", lambda s: levels.get((s.temperature, s.frequency))),
+        Column(f"factor of E' at {strain_text(WORKING_STRAIN)}", "ratio", factor("storage"), key="storage_factor"),
+        Column(f"factor of E'' at {strain_text(WORKING_STRAIN)}", "ratio", factor("loss"), key="loss_factor"),
+    )
+    return Table("strain_sweeps", "Strain sweeps", "Strain sweeps", columns, () if factors is None else factors.sweeps)
 
 
 def master_curve_table(fitted: FittedCompound) -> Table:

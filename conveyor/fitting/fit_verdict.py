@@ -19,6 +19,7 @@ from conveyor.fitting.measured_rows import MeasuredRows
 from conveyor.fitting.shift_choice import slope_text
 from conveyor.models import Conveyor
 from conveyor.rubber import PronySeries, ShiftComparison, Superposition
+from conveyor.rubber.strain import FEWEST_SCATTER_POINTS
 from conveyor.units import text
 from conveyor.units.sentences import percent, to_celsius
 
@@ -74,6 +75,7 @@ GLOSSARY: Final = (
     ("best positive spectrum", "the closest curve that any Prony series could give; what it leaves is in the data"),
     ("90 % band", "what nine tenths of the replicas of the fit keep to, data resampled by their own residuals"),
     ("scatter", "of a row about the line through its neighbours, bent as the curve of all isotherms"),
+    ("strain sweep", "E' and E'' over strain amplitude: filled rubber softens with it (Payne effect)"),
     ("overlap", "frequencies that two neighbouring isotherms share on the master curve"),
     ("correlation", "of each error with its neighbour's: near 0 for scatter, near 1 for a misfit with a shape"),
     ("rms", "root mean square"),
@@ -221,9 +223,19 @@ def _strain_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
 
 
 def _sweep_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
-    """E' of the strain sweeps beside that of the master curve."""
-    if fitted.compound.strain_dependence is None:
+    """Scatter of the strain sweeps, and their E' beside that of the master curve."""
+    factors = fitted.compound.amplitude_factors()
+    if factors is None:
         return
+    for k, (label, most) in enumerate(zip(("E'", "E''"), NOISE_LIMITS, strict=True)):
+        name = f"scatter of {label} in strain sweeps"
+        known = [(sweep.scatter[k], sweep.temperature) for sweep in factors.sweeps if sweep.scatter is not None]
+        if not known:
+            yield _not_checked(name, f"no sweep of {FEWEST_SCATTER_POINTS} strains: it is in no band")
+            continue
+        scatter, at = max(known)
+        why = f"at {round(to_celsius(at))} °C; it is in the band of the rubber"
+        yield _at_most(name, scatter, most, _percent_text, why)
     name = "strain sweeps beside the master curve"
     if not fitted.levels:
         yield _not_checked(name, "no sweep within the window and the shift factors")

@@ -12,7 +12,7 @@ from conveyor.fitting.measured_rows import MeasuredRows
 from conveyor.fitting.summary import band_figure as band
 from conveyor.report.matplotlib_settings import own_settings
 from conveyor.report.plots import curve_colour, stacked_axes
-from conveyor.rubber import ShiftTable
+from conveyor.rubber import AmplitudeFactors, ShiftTable
 from conveyor.units.sentences import ZERO_CELSIUS, to_celsius
 
 if TYPE_CHECKING:
@@ -43,6 +43,10 @@ def fit_figures(fitted: FittedCompound) -> Iterator[tuple[str, str, Figure]]:
         )
     caption = "Free of frequency: van Gurp-Palmen above, Cole-Cole below. Rows of one material lie on one curve."
     yield "collapse", caption, frequency_free_figure(fitted)
+    factors = fitted.compound.amplitude_factors()
+    if factors is not None:
+        caption = "Strain sweeps: E' above, E'' below, over those at the strain of the master curve (dotted)."
+        yield "strain", caption, strain_figure(factors)
     caption = "Series less data, over data, row by row; shaded: scatter of the rows themselves."
     yield "residuals", caption, residual_figure(fitted)
     yield "band", "Master curve, series and its 90 % band.", band(fitted)
@@ -167,6 +171,28 @@ def frequency_free_figure(fitted: FittedCompound) -> Figure:
     above.set_ylim(bottom=0.0)
     below.set(xscale="log", yscale="log", xlabel="E'/b_T [MPa]", ylabel="E''/b_T [MPa]")
     _label_marks(above)
+    return made
+
+
+@own_settings()
+def strain_figure(factors: AmplitudeFactors) -> Figure:
+    """Factors of E' above and E'' below over strain amplitude: every row, and the curve through the sweeps."""
+    made, axes = stacked_axes(2, _HEIGHT)
+    colours = _temperature_colours(np.array([sweep.temperature for sweep in factors.sweeps]))
+    for axis, name, label in zip(axes, ("storage", "loss"), ("E'", "E''"), strict=True):
+        for sweep, colour in zip(factors.sweeps, colours, strict=True):
+            curve = AmplitudeFactors([sweep], factors.reference_strain)
+            factor, rows = getattr(curve, name), getattr(sweep, name)
+            unit = rows[0] / factor(sweep.strain[0], sweep.temperature)
+            fine = np.geomspace(sweep.strain[0], sweep.strain[-1], _POINTS)
+            axis.plot(100.0 * fine, factor(fine, sweep.temperature), color=colour, linewidth=1.0)
+            words = f"{round(to_celsius(sweep.temperature))} °C, {sweep.frequency:.3g} Hz" if axis is axes[0] else None
+            _plot_marks(axis, 100.0 * sweep.strain, rows / unit, colour, words)
+        axis.axvline(100.0 * factors.reference_strain, color="0.4", linestyle=":", linewidth=0.8)
+        axis.set(xscale="log", ylabel=f"factor of {label} [-]")
+        axis.set_ylim(bottom=0.0)
+    axes[1].set(xlabel="strain amplitude [%]")
+    _label_marks(axes[0])
     return made
 
 

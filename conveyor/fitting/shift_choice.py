@@ -28,6 +28,7 @@ from conveyor.laboratory.groups import ISOTHERM_GAP
 from conveyor.rubber import (
     WLF,
     Arrhenius,
+    Isotherm,
     ShiftComparison,
     ShiftLaw,
     ShiftTable,
@@ -254,10 +255,24 @@ def _check_sweeps(read: Sequence[DmaData], chain: Sequence[FrequencySweep]) -> N
         t = second.isotherm.temperature
         if abs(t - first.isotherm.temperature) < SAME_PRINTED:
             begins = f"{read[first.file].source}:{first.first_row}"
+            place = f"{read[second.file].source}:{second.first_row}"
+            if _repeats_rows(first.isotherm, second.isotherm):
+                raise InputError(
+                    f"{place}: its rows at {to_celsius(t):.2f} degC repeat those that begin at {begins} digit for "
+                    "digit: delete them, or leave them out with --exclude"
+                )
             raise InputError(
-                f"{read[second.file].source}:{second.first_row}: a second sweep at {to_celsius(t):.2f} degC, the first "
+                f"{place}: a second sweep at {to_celsius(t):.2f} degC, the first "
                 f"begins at {begins}: leave one of them out with --exclude, or have repeats averaged by --repeats"
             )
+
+
+def _repeats_rows(first: Isotherm, second: Isotherm) -> bool:
+    """True if every row of an isotherm stands in another, digit for digit."""
+    known, again = (
+        {tuple(row) for row in np.array([one.frequency, one.storage, one.loss]).T.tolist()} for one in (first, second)
+    )
+    return again <= known
 
 
 def _check_order(

@@ -25,6 +25,7 @@ from conveyor.laboratory.header_points import split_set_points
 from conveyor.laboratory.measurement_kinds import NEEDED_COLUMNS, decide_kind, possible_kinds
 from conveyor.laboratory.moduli import ModulusLetter, dynamic_moduli, equivalent_strain, modulus_letter, tensile_factor
 from conveyor.laboratory.ramp import isotherms_of_ramp
+from conveyor.laboratory.stated_values import STATED_QUANTITIES, sheet_temperature, stated_value
 from conveyor.laboratory.table_file import load_grid, source_name
 from conveyor.laboratory.table_layout import (
     EXAMPLE_HEADER,
@@ -209,6 +210,10 @@ def _read_grid(
         labels = np.array(table.blocks, dtype=np.int64)
         notes.append("each block of the file is a run of its own")
     kind, reason = _table_kind(table, columns, read, labels, asked.kind)
+    for quantity in STATED_QUANTITIES.get(kind, ()):
+        if quantity not in columns and (stated := stated_value(table, quantity)) is not None:
+            columns[quantity] = np.full(len(table.rows), stated.value)
+            derived.append(stated.note)
     ramp = isotherms_of_ramp(columns) if kind == "temperature sweep" and asked.kind is None else None
     if ramp is not None:
         kind, reason, columns, labels = "isotherms", ramp.note, ramp.columns, ramp.group
@@ -317,6 +322,9 @@ def _si_quantities(
             raise table.refusal(series["temperature"].column, what)
         columns["temperature"] = np.full(len(table.rows), temperature)
         notes.append(f"temperature of every row {temperature:g} K as given")
+    elif "temperature" not in series and (named := sheet_temperature(table)) is not None:
+        columns["temperature"] = np.full(len(table.rows), named.value)
+        notes.append(named.note)
     return columns, notes + _apply_shares(table, series, columns, asked.instantaneous), shear
 
 

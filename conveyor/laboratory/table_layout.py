@@ -377,7 +377,7 @@ def _check_same_columns(
 
 
 def _metadata_lines(grid: TextGrid, header: int) -> Iterator[tuple[str, str, int]]:
-    """`key: value` (or `=`) of remark lines anywhere and of lines before the header, rows of two cells there; line."""
+    """`key: value` (or `=`) of remarks anywhere and of lines before the header, of two cells (and a unit); line."""
     for position, line in enumerate(grid.lines):
         if position == header or (position > header and not line.comment):
             continue
@@ -386,6 +386,8 @@ def _metadata_lines(grid: TextGrid, header: int) -> Iterator[tuple[str, str, int
             yield key.strip(), value.strip(" \t;,"), line.number
         elif not line.comment and len(line.cells) == 2 and not is_number(line.cells[0]):
             yield line.cells[0].rstrip(": "), line.cells[1], line.number
+        elif not line.comment and len(line.cells) == 3 and is_number(line.cells[1]) and is_any_unit(line.cells[2]):
+            yield line.cells[0].rstrip(": "), f"{line.cells[1]} {line.cells[2]}", line.number
 
 
 def _no_table_error(grid: TextGrid, headers: Sequence[int]) -> InputError:

@@ -27,6 +27,7 @@ _SAME: Final = re.compile(
     r"|(?:[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\])?)+)"  # a path of a field
     r"|(?:[A-Za-z0-9]+(?:_[A-Za-z0-9]+)+|[0-9a-f]{12,}|\"[^\"]*\")"  # a key, a fingerprint, a name in quotes
     r"|(?:[A-Z]{1,4}-?\d[\w/.-]*|\S+\.[a-z]{2,4}(?:[/:]\S*)?)"  # a part or belt of a series, a file or site
+    r"|(?:cp\d+|tau|dyn/cm\^2|ksi|min)"  # an encoding, a column and units of laboratory files
     r"|(?:[A-Z]'{0,2}|[a-zA-Z](?:_\w+)?|T(?:[12e]|max|min)|tan δ|\(C-1\) F_H|\|E\*\|/b_T)"  # a symbol
 )
 _WITH_UNIT: Final = re.compile(r"(.+) (\[[^][]+\]|T(?:[12e]|max|min))", re.DOTALL)

@@ -361,13 +361,17 @@ class RubberCompound(Model):
         return () if band is None else band.series([si(term.time) for term in terms])
 
     def alternatives(self) -> tuple[Self, ...]:
-        """Return the compound with each replica of its fit and the replica's shift."""
+        """Return the compound with each replica of its fit, the replica's shift, and strain sweeps as they scatter."""
+        strains = self.strain_dependence
         return tuple(
             self.replace(
                 shift=shift,
                 prony=prony_data(series),
+                strain_dependence=None if strains is None else strains.draw(np.random.default_rng(number)),
             )
-            for series, shift in zip(self._reference_replicas(), self._replica_shifts(), strict=True)
+            for number, (series, shift) in enumerate(
+                zip(self._reference_replicas(), self._replica_shifts(), strict=True)
+            )
         )
 
     def check_temperature(self, temperature: float) -> None:

@@ -268,6 +268,15 @@ class SweptStrain(Model):
             scale * np.array(self.loss),
         )
 
+    def draw(self, random: np.random.Generator) -> SweptStrain:
+        """Draw a sweep that the same measurement could have given, see `conveyor.rubber.StrainSweep.draw`."""
+        measured = self.sweep()
+        drawn = measured.draw(random)
+        if drawn is measured:
+            return self
+        scale = _PASCALS_PER_UNIT[self.unit]
+        return self.replace(storage=tuple((drawn.storage / scale).tolist()), loss=tuple((drawn.loss / scale).tolist()))
+
 
 class StrainDependence(Model):
     """How filled rubber softens with the amplitude of its strain (Payne effect)."""
@@ -292,6 +301,11 @@ class StrainDependence(Model):
         from conveyor.rubber import AmplitudeFactors
 
         return AmplitudeFactors([sweep.sweep() for sweep in self.sweeps], si(self.reference_strain))
+
+    def draw(self, random: np.random.Generator) -> StrainDependence:
+        """Draw sweeps that the same measurement could have given, each by its scatter from row to row."""
+        drawn = tuple(sweep.draw(random) for sweep in self.sweeps)
+        return self if drawn == self.sweeps else self.replace(sweeps=drawn)
 
 
 class FitStatistics(Model):

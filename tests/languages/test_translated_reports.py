@@ -14,6 +14,7 @@ from conveyor import analyse, load
 from conveyor.default_bands import DEFAULTS
 from conveyor.errors import InputError
 from conveyor.fitting.fit_verdict import GLOSSARY
+from conveyor.laboratory import read_dma
 from conveyor.languages import TRANSLATED
 from conveyor.languages.gapped_sentence import GAP
 from conveyor.languages.translator import report_translator
@@ -133,6 +134,26 @@ def test_every_sentence_of_checks_and_remarks_is_translated(folder):
         found += 1
         words.text(GAP.sub("7", sentence.replace("{{", "{").replace("}}", "}")))
     assert found > {"checks": 100, "remarks": 40, "dynamics": 10}[folder]
+    assert words.missing == {}
+
+
+def test_notes_on_reading_laboratory_files_are_translated():
+    """Of every file that is read, and those of code that no file says."""
+    words, said = report_translator("zh"), 0
+    for path in sorted((ROOT / "tests" / "laboratory" / "files").glob("*/*")):
+        try:
+            read = read_dma(path)
+        except InputError:
+            continue
+        said += len(read.understood)
+        for line in read.understood:
+            words.text(f"{path.name}: {line}")
+    assert said > 300
+    for path in sorted((ROOT / "conveyor" / "laboratory").glob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            called = node.func if isinstance(node, ast.Call) else None
+            if isinstance(called, ast.Attribute) and (called.attr, ast.unparse(called.value)) == ("append", "notes"):
+                words.text(GAP.sub("7", _sentence(node.args[0])))
     assert words.missing == {}
 
 

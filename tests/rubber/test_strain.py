@@ -75,6 +75,74 @@ def test_sweeps_refuse_what_they_cannot_mean():
         sweeps("S100")[0].strain[0] = 1.0
 
 
+# scatter
+
+
+def noisy(points, scatter, seed):
+    strain = np.geomspace(1e-4, 0.1, points)
+    apart = scatter * np.random.default_rng(seed).standard_normal((2, points))
+    return StrainSweep(293.15, 1.0, strain, *(np.array([LAW.storage(strain), LAW.loss(strain)]) * np.exp(apart)))
+
+
+@pytest.mark.parametrize("scatter", [0.005, 0.02])
+def test_scatter_of_a_sweep_is_that_of_its_rows(scatter):
+    found = np.array([noisy(16, scatter, seed).scatter for seed in range(100)])
+    # the mean square of 12 residuals: 200 draws know it to 2·√(2/12/200) = 6 %, twice that is allowed
+    assert np.mean(found**2, axis=0) == pytest.approx([scatter**2, scatter**2], rel=0.12)
+
+
+def test_scatter_of_a_sweep_without_any_is_below_what_is_drawn():
+    for points in (15, 20, 30):
+        assert max(noisy(points, 0.0, 0).scatter) < 1e-3
+    assert noisy(7, 0.01, 0).scatter is None
+    # sparse rows of a Payne step count as scatter, which is the safe side
+    assert 1e-3 < max(noisy(10, 0.0, 0).scatter) < 5e-3
+
+
+def test_drawn_sweeps_scatter_as_measured_and_keep_their_plateau():
+    sweep, random = noisy(16, 0.02, 3), np.random.default_rng(1)
+    drawn = [sweep.draw(random) for _ in range(400)]
+    for name, scatter in zip(("storage", "loss"), sweep.scatter, strict=True):
+        apart = np.log([getattr(one, name) for one in drawn]) - np.log(getattr(sweep, name))
+        # 400 draws of 16 rows: their standard deviation is known to 1/√12800 = 0.9 %
+        assert apart.std() == pytest.approx(scatter, rel=0.03)
+        assert abs(apart.mean()) < 4.0 * scatter / 80.0
+    strain = np.array([1e-4, 1.4e-4, 1.9e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1])
+    flat_start = StrainSweep(293.15, 1.0, strain, [1e7, 1.01e7, 0.99e7, 8e6, 7e6, 5e6, 4e6, 3e6], [1e6] * 8)
+    assert flat_start.plateau("storage").tolist() == [True] * 3 + [False] * 5
+    for _ in range(20):
+        again = flat_start.draw(random)
+        assert again.plateau("storage").any()
+        assert np.ptp(np.log(again.storage[:3] / flat_start.storage[:3])) == pytest.approx(0.0, abs=1e-12)
+    smooth = noisy(30, 0.0, 0)
+    assert smooth.draw(random) is smooth
+
+
+def test_replicas_of_a_compound_have_the_scatter_of_its_sweeps():
+    """Noise of 2 % in every row of the sweeps: √2 of it between a strain and the reference."""
+    plain = compound("s100")
+    noise = np.random.default_rng(5)
+    data = plain.strain_dependence
+    rough = plain.replace(
+        strain_dependence=data.replace(
+            sweeps=[
+                one.replace(
+                    storage=[y * math.exp(0.02 * noise.standard_normal()) for y in one.storage],
+                    loss=[y * math.exp(0.02 * noise.standard_normal()) for y in one.loss],
+                )
+                for one in data.sweeps
+            ]
+        )
+    )
+    spread = {}
+    for name, made in (("plain", plain), ("rough", rough)):
+        factors = [one.amplitude_factors().storage(0.02, ZERO + 20.0) for one in made.alternatives()]
+        spread[name] = float(np.std(np.log(factors)))
+    assert spread["plain"] < 0.004
+    # two sweeps at weights 0.5 each: 0.02·√2·√0.5 = 0.02, known from 20 replicas to 16 %
+    assert spread["rough"] == pytest.approx(0.02, rel=0.5)
+
+
 # factors
 
 
