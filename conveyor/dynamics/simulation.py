@@ -448,6 +448,11 @@ def _dynamics_assumptions(dynamics: CalculatedDynamics) -> Iterator[str]:
         )
     if any(stretch.bed is not None for stretch in line.stretches):
         yield "a belt on a plate gives way in waves like one on the carry sets"
+    if any(followed.setup.scene.friction == 1.0 for followed in dynamics.followed):
+        yield (
+            "scenarios without a friction of their own have the expected one; that to design for is "
+            f"{percent(line.design_friction)} of it, the least {percent(line.least_friction)}"
+        )
     for followed in dynamics.followed:
         yield from _drive_assumptions(followed.setup)
 

@@ -95,16 +95,18 @@ def real_errors(error: ValidationError) -> list[dict[str, Any]]:
 
 
 def field_path(location: Location) -> str:
-    """Write a pydantic location as people read it: ``route.sections[2].lift``.
+    """Write a pydantic location as people read it: ``route.sections[2].lift``, ``idlers.return``.
 
     Examples
     --------
     >>> field_path(("route", "sections", 2, "lift"))
     'route.sections[2].lift'
+    >>> field_path(("idlers", "return_", "spacing"))  # a keyword of Python has an underscore there
+    'idlers.return.spacing'
     """
     path = ""
     for part in location:
-        path += f"[{part}]" if isinstance(part, int) else f".{part}"
+        path += f"[{part}]" if isinstance(part, int) else f".{part.removesuffix('_')}"
     return path.removeprefix(".")
 
 

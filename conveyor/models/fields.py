@@ -165,7 +165,7 @@ def _replace_fields(old: Model, below: Mapping[str, Any], path: str, resolve: Co
         name = key
         try:
             name = _field_name(old, key, path)
-            made[name] = _apply_changes(getattr(old, name), lower, f"{path}.{name}", resolve)
+            made[name] = _apply_changes(getattr(old, name), lower, f"{path}.{key}", resolve)
         except InputError as error:
             refused.append(str(error))
             wrong[name] = object()

@@ -14,6 +14,7 @@ from conveyor.line.usual_parts import SHAFT_DIAMETER_RATIO, TAKE_UP_WRAPS
 from conveyor.models import Conveyor
 from conveyor.models.base import given_data
 from conveyor.models.maker_lists import ListedItem
+from conveyor.models.sizing import DriveLayout
 from conveyor.sizing.design_choice import CarcassClass, DesignChoice, RollSize, SelectedParts, WidthSize
 from conveyor.sizing.listed_sizes import listed_belt, listed_motor, named_item
 from conveyor.sizing.sizing_task import SizingTask
@@ -22,19 +23,10 @@ from conveyor.units import from_si, text
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
 
 
+SECOND_DRIVE_PULLEY: Final = "head 2"
+"""Name of the second driven pulley at the head."""
 SHAFT_STEEL: Final[Steel] = "C1045"
 """C45, the usual steel of pulley shafts; general knowledge."""
-
-
-_PULLEYS: Final = tuple(
-    (place, {"name": name, "position": place} | ({} if wrap is None else {"wrap_angle": wrap}))
-    for name, place, wrap in (
-        ("head", "head", None),
-        *((name, "take-up", wrap) for name, wrap in TAKE_UP_WRAPS.items()),
-        ("tail", "tail", None),
-    )
-)
-"""Place, name and wrap of every pulley: the take-up hangs in the belt's loop between two bends."""
 
 
 _UNIT_KINDS: Final = {"m": "length", "mm": "thickness", "m/s": "speed", "deg": "angle", "kW": "power",
@@ -110,7 +102,8 @@ def drive_diameter(task: SizingTask, chosen: SelectedParts) -> float:
 
 def series_drive_diameter(task: SizingTask, chosen: SelectedParts) -> float:
     """Diameter of the drive pulleys of the series [m], with room for the shafts of head and tail."""
-    ends = chosen.shafts[:1] + chosen.shafts[-1:]
+    bends = len(TAKE_UP_WRAPS)
+    ends = chosen.shafts[: -bends - 1] + chosen.shafts[-1:]
     return max([task.drive_diameter(chosen.carcass), *map(task.pulley_around, ends)])
 
 
@@ -140,15 +133,31 @@ def _all_pulleys(task: SizingTask, choice: DesignChoice, chosen: SelectedParts) 
         return [
             {**placed, "listed": items[place]}
             | ({"bearing_life": text(task.rules.roll_life)} if "bearing_rating" in items[place].fields else {})
-            for place, placed in _PULLEYS
+            for place, placed in _pulley_places(choice.drives)
         ]
     driven, bend = drive_diameter(task, chosen), task.bend_diameter(chosen.carcass)
     sizes = {"head": driven, "take-up": bend, "tail": driven if "tail" in choice.drives else bend}
-    width, shafts = choice.trough.width, chosen.shafts or (None,) * len(_PULLEYS)
+    places = _pulley_places(choice.drives)
+    width, shafts = choice.trough.width, chosen.shafts or (None,) * len(places)
     return [
         placed | _pulley_fields(task, sizes[place], width, shaft)
-        for (place, placed), shaft in zip(_PULLEYS, shafts, strict=True)
+        for (place, placed), shaft in zip(places, shafts, strict=True)
     ]
+
+
+def _pulley_places(drives: DriveLayout) -> list[tuple[str, dict[str, str]]]:
+    """Place, and name, position and wrap, of every pulley: the take-up hangs in the belt's loop between two bends."""
+    wraps = [(name, "take-up", wrap) for name, wrap in TAKE_UP_WRAPS.items()]
+    second = [(SECOND_DRIVE_PULLEY, "head", None)] if has_second_pulley(drives) else []
+    return [
+        (place, {"name": name, "position": place} | ({} if wrap is None else {"wrap_angle": wrap}))
+        for name, place, wrap in (("head", "head", None), *second, *wraps, ("tail", "tail", None))
+    ]
+
+
+def has_second_pulley(drives: DriveLayout) -> bool:
+    """True if two pulleys drive at the head."""
+    return "two pulleys" in drives
 
 
 def _pulley_fields(task: SizingTask, diameter: float, width: WidthSize, shaft: float | None) -> dict[str, Any]:

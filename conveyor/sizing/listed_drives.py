@@ -14,7 +14,7 @@ from conveyor.laws.drives import gear_torque
 from conveyor.models.maker_lists import ListedItem, MakerKind
 from conveyor.models.sizing import within_limit
 from conveyor.sizing.design_choice import DesignChoice, ListedPart, ListedParts, SelectedParts
-from conveyor.sizing.design_spec import series_drive_diameter
+from conveyor.sizing.design_spec import SECOND_DRIVE_PULLEY, has_second_pulley, series_drive_diameter
 from conveyor.sizing.sized_design import Shortfall
 from conveyor.sizing.sizing_task import SizingTask
 from conveyor.units import read_si
@@ -234,8 +234,9 @@ class _Selection:
 
     @property
     def _alike(self) -> tuple[str, ...]:
-        """Pulleys that are alike: the head, and a driven tail."""
-        return ("head", "tail") if "tail" in self.choice.drives else ("head",)
+        """Names of the pulleys that are alike: those at the head, and a driven tail."""
+        second = (SECOND_DRIVE_PULLEY,) if has_second_pulley(self.choice.drives) else ()
+        return ("head", *second, *(("tail",) if "tail" in self.choice.drives else ()))
 
     def select_pulleys(self, drive: ListedPart | float) -> tuple[ListedPart, ...]:
         """Listed pulleys of head, take-up and tail; none if they are of the series."""

@@ -46,6 +46,14 @@ def test_a_changed_field_is_that_of_a_spec_written_so(line):
     assert made == conveyor.spec.from_data(data)
 
 
+def test_refusals_name_a_field_as_specs_do(line):
+    for path, value in (("idlers.return.spacing", "500 m"), ("idlers.return.roll.diameter", "5 m")):
+        with pytest.raises(InputError, match=rf"^{path}: got {value}"):
+            with_fields(line, {path: value})
+    with pytest.raises(InputError, match=r"^idlers\.return\.foo: no such field"):
+        with_fields(line, {"idlers.return.foo": "1 m"})
+
+
 def test_a_part_that_was_not_given_is_made(line):
     without = line.replace(operation=None)
     made = with_fields(without, {"operation.hours_per_year": "4000 h", "operation.price": "0.1 EUR/kWh"})

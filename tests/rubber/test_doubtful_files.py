@@ -303,7 +303,7 @@ def isotherms(folder: Path, *more: tuple[float, float], header: str = "T [degC],
 
 def test_a_sweep_that_is_there_twice_is_named_by_its_rows_and_left_out(tmp_path: Path) -> None:
     path = isotherms(tmp_path, *[(20, f) for f in (0.1, 0.3, 1.0, 3.0)])
-    said = re.escape(f"{path}:20: a second sweep at 20.00 degC, the first begins at {path}:8: leave one")
+    said = re.escape(f"{path}:20: its rows at 20.00 degC repeat those that begin at {path}:8 digit for digit: delete")
     with pytest.raises(InputError, match=said + ".*--exclude"):
         fit_file(path, request())
     assert fit_file(path, request(exclude=("20-23",))).rows.frequency.size == 18

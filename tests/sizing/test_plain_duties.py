@@ -209,6 +209,11 @@ def test_a_belt_that_would_go_slack_in_a_stop_has_its_take_up_set_higher():
     assert {check.key for check in loose.governing if check.failed} == {"slack_belt"}
     slack = -min(state.smallest for one in loose.designing for state in one.motion_states)
     assert 0.0 <= best.chosen.take_up - loose.take_up - slack < 0.05 * best.chosen.take_up  # a wider class weighs more
+    first, second, *_ = best.found.pulley_duty  # both driven pulleys stand in the spec
+    assert (first.pulley.name, second.pulley.name) == ("head", "head 2")
+    steady = best.found.balance.settled.steady
+    assert [side.arriving for side in steady.drives] == pytest.approx([p.steady.arriving for p in (first, second)])
+    assert first.steady.leaving == pytest.approx(second.steady.arriving, rel=1e-3)  # nothing but a pulley between
 
 
 def test_levels_of_one_calculation_make_the_estimate_that_calculation():
