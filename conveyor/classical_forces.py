@@ -188,7 +188,8 @@ def cema_point_forces(line: Line, factors: CemaFactors) -> Iterator[Force]:
             yield here("Tam", f"Tam, acceleration of the bulk{point.name}", "secondary", inertia, f"{_BOOK}, Tam",
                        certain=True, spot=point.spot, bulk=point.comes_with)  # fmt: skip
         boards = point.boards(line.speed, line.gravity)
-        seals = cema_skirts(boards, skirt_factor=0.0, depth=factors.skirt_depth, seals=factors.seals)
+        drag = point.seal_drag if point.seal_drag > 0.0 and not point.assumed else factors.seals
+        seals = cema_skirts(boards, skirt_factor=0.0, depth=factors.skirt_depth, seals=drag)
         yield here("Tsb", f"Tsb, seals of the skirts{point.name}", "special", seals, f"{_BOOK}, Tsb", spot=point.spot)
         if point.flow_beyond > 0.0:
             depth = factors.skirt_depth
@@ -216,15 +217,20 @@ def _pulley_forces(line: Line, factors: CemaFactors) -> Iterator[Force]:
         tail = line.places.before("tail", None)
         yield Force("Tp", "Tp, pulleys", "secondary", factors.pulleys, f"{_BOOK}, Tp given", spot=tail, place="tail")
         return
+    at_tail = all(drive.spot.boundary == line.count for drive in line.drives)
     for pulley in line.pulleys:
         if not pulley.driven:
-            force = cema_pulley_friction([cema_pulley_place(pulley)])
+            force = cema_pulley_friction([cema_pulley_place(pulley, driven_at_tail=at_tail)])
             yield Force("Tp", f"Tp, {pulley.name}", "secondary", force, f"{_BOOK}, Tp", spot=pulley.spot,
                         place=pulley.place, assumed=pulley.assumed)  # fmt: skip
 
 
-def cema_pulley_place(pulley: BendPulley) -> Place:
-    """CEMA place of a pulley; tight side: head and carry strand, slack side: the rest."""
+def cema_pulley_place(pulley: BendPulley, *, driven_at_tail: bool) -> Place:
+    """CEMA place of a pulley; tight side: head and carry strand, slack side: the rest.
+
+    Where all drives stand at the tail, the return strand and what stands before them are of the tight side, too.
+    """
     if pulley.wrap_angle < _LEAST_WRAP:
         return "other"
-    return "tight" if pulley.position in {"head", "carry"} else "slack"
+    tight = {"head", "carry", "return", "tail"} if driven_at_tail else {"head", "carry"}
+    return "tight" if pulley.position in tight else "slack"

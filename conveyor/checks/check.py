@@ -220,8 +220,9 @@ def severity_rank(check: Check) -> tuple[int, float, float]:
     sign = 1.0 if check.relation == "at least" else -1.0
     if check.required is not None and check.calculated is not None:
         over = sign * (check.calculated - check.required)
-        margin = over if margin is None else margin
-        further = 0.0 if check.calculated else over
+        if margin is None:  # temperatures are compared by their difference; a limit of 0 is met by any or by none
+            margin = over if check.kind == "temperature" or over == 0.0 else math.copysign(math.inf, over)
+        further = 0.0 if check.calculated and check.required else over
     else:
         margin = -math.inf if check.failed else math.inf
         further = -math.inf if check.calculated is None else sign * check.calculated

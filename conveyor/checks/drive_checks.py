@@ -28,7 +28,7 @@ def motor_power(result: CalculatedConveyor) -> Iterator[Check]:
     low, high = result.drive_forces
     designed = high > result.balance.settled.force
     for drive in line.drives:
-        least, most = motor(drive.share * low), motor(drive.share * high)
+        least, most = (motor(drive.share * force, drive.share) for force in (low, high))
         certain = abs(least) > abs(most)
         power = least if certain else most
         who = "the motor" if len(line.drives) == 1 else f'"{escape_braces(drive.name)}"'
@@ -174,7 +174,8 @@ def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:
             yield _motor_starts_check(name, parts.starts, duty.allowed_starts)
         if duty.shared is not None and installed is not None:
             yield check_against_limit(
-                "load_sharing", f"motor power by uncontrolled sharing, {name}", abs(motor(duty.shared)), "at most",
+                "load_sharing", f"motor power by uncontrolled sharing, {name}",
+                abs(motor(duty.shared, duty.drive.share)), "at most",
                 installed, "power",
                 why=f'"{name}" takes {{calculated}} where nothing but the belt couples the drives, installed: '
                 "{required}; control the sharing, or choose motors of more slip and pulleys alike",

@@ -126,9 +126,8 @@ class CutLoop:
         first = cut.boundary % count
         order = (first + np.arange(count)) % count
         friction, weight = _stretch_forces(steady)
-        stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * next(
-            np.asarray(force.newtons) for force in steady.balance.along if force.key == "idler_rotation"
-        )
+        drags = (np.asarray(force.newtons) for force in steady.balance.along if force.key == "idler_rotation")
+        stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * next(drags, line.rotation)  # no own part of classical methods
         whole = float(ways[-1])
 
         def distance(spot: LoopPosition) -> float:

@@ -266,6 +266,11 @@ class Line:
         return np.fromiter(whole, float)
 
     @property
+    def drive_bearings(self) -> float:
+        """Friction of the drive pulleys' bearings at the belt that the method counts beside the forces [N]."""
+        return self.cema.drive_pulleys if self.method == "cema classic" and self.cema is not None else 0.0
+
+    @property
     def loop(self) -> LoopShape:
         """The stretches as the belt meets them from the head."""
         return self.strands.loop
@@ -275,9 +280,8 @@ def _secondary_resistances(conveyor: Conveyor) -> str:
     """As given; by a friction factor C where it is tabled."""
     calculation = conveyor.calculation
     tabled = SHORTEST_FOR_FACTOR < conveyor.route.length <= LENGTH_COEFFICIENTS[-1][0]
-    if calculation.method in FACTOR_METHODS and "secondary" not in calculation.model_fields_set and tabled:
-        return "C"
-    return calculation.secondary
+    usual = "C" if calculation.method in FACTOR_METHODS and tabled else "itemised"
+    return usual if calculation.secondary is None else calculation.secondary
 
 
 def _flexure_source(calculation: Calculation) -> str:

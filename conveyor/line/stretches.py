@@ -209,7 +209,9 @@ def strand_stretches(
     return tuple(made.stretch(section) for section in along)
 
 
-def masses_on_rolls(belt_mass: float, bulk_mass: float, pressing: float, *, where: str) -> tuple[float, float]:
+def masses_on_rolls(
+    belt_mass: float, bulk_mass: float, pressing: float, *, radius: float, where: str
+) -> tuple[float, float]:
     """Masses of belt and bulk as they press on the rolls of a vertical curve [kg/m].
 
     A concave curve's negative mass relieves the belt first, then the bulk; the sum is kept.
@@ -219,13 +221,16 @@ def masses_on_rolls(belt_mass: float, bulk_mass: float, pressing: float, *, wher
     NoSolutionError
         The belt lifts off with its bulk.
     """
-    belt = belt_mass + pressing
+    belt, whole = belt_mass + pressing, belt_mass + bulk_mass
     if bulk_mass + belt <= 0.0:
+        needed = radius * -pressing / whole
         raise NoSolutionError(
-            "the belt lifts off in {}: on a concave curve its tension pulls up like {}, belt and bulk are {}; choose a "
-            "larger curve_radius or less tension",
+            "the belt lifts off in {}: on its concave curve of {} the tension pulls up like {}, belt and bulk are {}; "
+            "choose a curve_radius beyond {} (route.sections), or less tension",
             where,
-            *(MessageQuantity(each, "line mass", f"{each:.4g} kg/m") for each in (-pressing, belt_mass + bulk_mass)),
+            MessageQuantity(radius, "length", f"{radius:.4g} m"),
+            *(MessageQuantity(each, "line mass", f"{each:.4g} kg/m") for each in (-pressing, whole)),
+            MessageQuantity(needed, "length", f"{needed:.4g} m"),
         )
     return (belt, bulk_mass) if belt >= 0.0 else (0.0, bulk_mass + belt)
 
@@ -273,7 +278,11 @@ class _StretchBuilder:
         flow *= self.flow_shares[section.name]
         pressing = self.acting.pressing.get((section.name, self.strand), 0.0)
         belt_on_rolls, bulk_on_rolls = masses_on_rolls(
-            self.belt_mass, flow, pressing, where=f'section "{section.name}", {self.strand}'
+            self.belt_mass,
+            flow,
+            pressing,
+            radius=abs(section.radius),
+            where=f'section "{section.name}", {self.strand}',
         )
         length = section.length
         rise = section.rise if self.carrying else -section.rise

@@ -38,6 +38,11 @@ class ClassicalEstimate:
         """Effective tension [N]."""
         return self.main + self.secondary + self.special + self.lift
 
+    @property
+    def motor_force(self) -> float:
+        """Force that the motors give at the rims of the drive pulleys [N]."""
+        return self.total
+
 
 def estimate_of_forces(forces: ForceSums, friction_factor: float, secondary_by: str) -> ClassicalEstimate:
     """Forces of a calculation in the form of an estimate, to stand beside another method's [N]."""
@@ -84,6 +89,11 @@ class CemaEstimate(ClassicalEstimate):
 
     items: tuple[tuple[str, str, float], ...]
     drive_pulleys: float
+
+    @property
+    def motor_force(self) -> float:
+        """Te and the bearing friction of the drive pulleys [N]."""
+        return self.total + self.drive_pulleys
 
 
 def cema_estimate(line: Line, unit_main: float) -> CemaEstimate | None:

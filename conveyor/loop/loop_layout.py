@@ -222,8 +222,15 @@ class LoopLayout:
         made.standing = _loop_constants(made)
         return made
 
-    def motor(self, force: float) -> float:
-        """Power at the motors' shafts for a force at the belt, negative when the belt drives them [W]."""
+    def motor(self, force: float, share: float = 1.0) -> float:
+        """Power at the motors' shafts of a force at the belt [W], negative when the belt drives them.
+
+        CEMA's bearings of the drive pulleys are in it, those of a drive by its share of the force [-].
+        """
+        return self.shaft_power(force + share * self.line.drive_bearings)
+
+    def shaft_power(self, force: float) -> float:
+        """Power at the motors' shafts of a force at the rims of the drive pulleys [W]."""
         belt = belt_power(force, belt_speed=self.line.speed)
         return motor_power(belt, efficiency=self.line.efficiency if force >= 0.0 else self.line.regeneration)
 

@@ -77,7 +77,7 @@ class Cema(Model):
     skirt_depth: Annotated[Thickness, Bounds(ge="0 mm", le="2 m")] | None = None
     """Depth of the bulk that touches the skirts, hs; needed beside skirt_factor."""
     skirt_seals: Annotated[LineForce, Bounds(ge="0 N/m", le="10 kN/m")] = quantity(f"{SEALS_PER_FOOT.value:g} lbf/ft")
-    """Friction of the rubber seals of both skirts along them."""
+    """Friction of the rubber seals of both skirts along them; of a loading point with seal_drag that instead."""
     cleaner_friction: Annotated[LineForce, Bounds(ge="0 N/m", le="10 kN/m")] = quantity(
         f"{CLEANER_PER_INCH.value:g} lbf/in"
     )

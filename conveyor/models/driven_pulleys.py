@@ -40,6 +40,17 @@ def driven_pulleys(drive: Drive, pulleys: Sequence[Pulley]) -> Iterator[DrivenPu
             yield DrivenPulley(i, k, shares[k][1])
 
 
+def missing_driven_pulleys(drive: Drive, pulleys: Sequence[Pulley]) -> Iterator[tuple[str, int, int]]:
+    """Places at which pulleys are listed, but fewer than the drives there turn: place, listed, needed."""
+    listed = [one.pulley for one in driven_pulleys(drive, pulleys)]
+    for position, section in dict.fromkeys((one.position, one.section) for one in drive.pulleys):
+        turned = [one for one in drive.pulleys if (one.position, one.section) == (position, section)]
+        needed = sum(_shared_wrap(si(one.wrap_angle))[0] for one in turned)
+        found = sum((pulleys[i].position, pulleys[i].section) == (position, section) for i in listed)
+        if 0 < found < needed:
+            yield position if section is None else f"{position}, {section}", found, needed
+
+
 def _shared_wrap(wrap: float) -> tuple[int, float]:
     """Number of pulleys that a drive's wrap [rad] needs, and the wrap of each [rad]."""
     count = math.ceil(wrap / _MOST_DRIVEN_WRAP)

@@ -52,8 +52,9 @@ class Calculation(Model):
     """Level of indentation by the compounds' rolling-resistance tests, or by the theory alone (off)."""
     gauss_points: Annotated[int, Field(ge=1, le=64, strict=True)] = 8
     """Points along a roll at which the contact is solved."""
-    secondary: Literal["itemised", "C"] = "itemised"
-    """Secondary resistances one by one, or all by the length coefficient C (80 m and longer)."""
+    secondary: Literal["itemised", "C"] | None = None
+    """Secondary resistances one by one, or all by the length coefficient C (80 m and longer); without it C for the
+    methods of a friction factor where it is tabled, else one by one."""
     not_given: Literal["usual values", "nothing"] = "usual values"
     """What stands in where the route has no feeding, no cleaners or no pulleys: usual ones, or nothing."""
     friction_factor: FrictionFactor = FRICTION_FACTOR.value
@@ -91,6 +92,9 @@ class Calculation(Model):
         if self.method == "cema classic" and self.cema is None:
             message = "missing: method cema classic needs Ky and Ai from the book: give cema"
             raise_problems("Calculation", [Problem(("cema",), message)])
+        if self.method == "cema classic" and self.secondary == "C":
+            message = 'got "C" beside method cema classic, which has Tp and Tam for what C stands for: remove it'
+            raise_problems("Calculation", [Problem(("secondary",), message)])
         if self.method != "viscoelastic" and self.calibration is not None:
             message = f"given beside method {self.method}, which has no such forces: remove it"
             raise_problems("Calculation", [Problem(("calibration",), message)])

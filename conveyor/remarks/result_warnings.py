@@ -28,13 +28,15 @@ from conveyor.line.roll_drags import acceptance_limit, assumed_bearing, bearing_
 from conveyor.line.set_loads import FormedPipe
 from conveyor.loop.annual_energy import lacks_feed_in_price
 from conveyor.models import Conveyor, IdlerSet, Roll
+from conveyor.models.calculation_methods import FACTOR_METHODS
+from conveyor.models.driven_pulleys import missing_driven_pulleys
 from conveyor.models.library_items import without_entry_fields
 from conveyor.models.plausibility import implausible_inputs
 from conveyor.models.rolls import BearingDrag
 from conveyor.remarks.assumptions import failed_fits, library_models, rolls_by_field
 from conveyor.remarks.bed_warnings import bed_warnings
 from conveyor.remarks.hopper_warnings import hopper_warnings
-from conveyor.units import quantity, same_value, text
+from conveyor.units import quantity, same_value, si, text
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import Message, escape_braces, message, percent
 
@@ -44,6 +46,8 @@ LEAST_FILLING: Final = 0.01
 """Share of the section that the belt holds to its edges below which a unit may be wrong [-]; general knowledge."""
 LARGEST_MOTORS: Final = 20.0
 """Installed power over that asked for above which a unit may be wrong [-]; general knowledge."""
+FREEZING: Final = 273.15
+"""Temperature above which CEMA's Kt is 1 [K]."""
 
 
 def analysis_warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Message, ...]:
@@ -64,6 +68,8 @@ def analysis_warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> t
                 *_calibration_warnings(conveyor),
                 *_size_warnings(result),
                 *_drive_warnings(result),
+                *_driven_pulley_warnings(conveyor),
+                *_cold_warnings(conveyor),
                 *_slack_side_warnings(result),
                 *(
                     _name_case(check, check.why)
@@ -317,9 +323,41 @@ def _drive_warnings(result: CalculatedConveyor) -> Iterator[Message]:
         yield message("operation.feed_in_price not given: energy that is fed back earns nothing")
 
 
+def _driven_pulley_warnings(conveyor: Conveyor) -> Iterator[Message]:
+    """Drives whose pulleys are not all listed: what is listed bears the force of all."""
+    for place, listed, needed in missing_driven_pulleys(conveyor.drive, conveyor.route.pulleys):
+        yield message(
+            f"route.pulleys: {listed} driven at {escape_braces(place)}, the drives there turn {needed}: shafts, "
+            "bearings and torques are those of the pulleys listed; list all that are driven"
+        )
+
+
+def _cold_warnings(conveyor: Conveyor) -> Iterator[Message]:
+    """A classical method below freezing with the factors of a warm day."""
+    calculation = conveyor.calculation
+    cases = [si(each) for case in conveyor.cases for each in case.temperatures]
+    duty = () if conveyor.operation is None else conveyor.operation.duty
+    bars = [si(bar.temperature) for bar in duty if bar.temperature is not None]
+    lowest = min(conveyor.temperature, si(conveyor.ambient.temperature), *cases, *bars)
+    if calculation.method == "viscoelastic" or lowest >= FREEZING:
+        return
+    if calculation.method in FACTOR_METHODS:
+        yield message(
+            "calculation.friction_factor: f is one for all temperatures; for {} give that of the cold",
+            (lowest, "temperature"),
+        )
+    elif calculation.cema is not None and calculation.cema.temperature_factor == 1.0:
+        yield message(
+            "calculation.cema.temperature_factor is 1, which holds above freezing: for {} give the book's Kt",
+            (lowest, "temperature"),
+        )
+
+
 def _slack_side_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     """A take-up before the drives, as the belt drives the motors."""
-    if result.line.take_up.on_slack_side and result.balance.settled.force < 0.0:
+    take_up = result.conveyor.route.take_up
+    confirmed = take_up is not None and "position" in take_up.model_fields_set
+    if result.line.take_up.on_slack_side and result.balance.settled.force < 0.0 and not confirmed:
         yield message(
             "the belt drives the motors: the slack side, where the take-up stands under every load, is before the "
             "drives; give route.take_up.position if it is built elsewhere"
@@ -521,6 +559,10 @@ def _pipe_warnings(conveyor: Conveyor) -> Iterator[Message]:
         )
 
 
+def _has_section_flexure(conveyor: Conveyor) -> bool:
+    return any(section.flexure_factor is not None for section in conveyor.route.sections)
+
+
 def _other_warnings(conveyor: Conveyor) -> Iterator[Message]:
     if any("scraping_factor" not in plough.model_fields_set for plough in conveyor.route.ploughs):
         yield message(
@@ -529,8 +571,8 @@ def _other_warnings(conveyor: Conveyor) -> Iterator[Message]:
         )
     if conveyor.calculation.cema is not None:
         yield message(
-            "CEMA classic form: formulas and figures as commonly reproduced, Ky, Kt, Ai, Cs by the spec, "
-            "one Ky for the whole conveyor"
+            "CEMA classic form: formulas and figures as commonly reproduced, Ky, Kt, Ai, Cs by the spec"
+            + ("" if _has_section_flexure(conveyor) else ", one Ky for the whole conveyor")
         )
         if conveyor.route.feeding is not None and conveyor.calculation.cema.skirt_factor is None:
             yield message("calculation.cema.skirt_factor not given: of the skirts only the seals are in CEMA's figures")

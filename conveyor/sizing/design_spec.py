@@ -66,7 +66,7 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
         point.setdefault("idler_spacing", written(task.loading_spacing(spacing), "m"))
     route["pulleys"] = _all_pulleys(task, choice, chosen)
     tension = {"tension": written(chosen.take_up, "kN", 4)} if chosen.take_up > 0.0 else {}
-    route["take_up"] = {"kind": "gravity", **tension}
+    route["take_up"] = {"kind": "gravity", "position": "drive", **tension}
     covers = duty.covers
     return Conveyor.from_data({
         "name": name,

@@ -384,7 +384,8 @@ def _powers_by_basis(task: SizingTask, one: CalculatedConveyor) -> Iterator[floa
     balance, basis = one.balance, task.rules.basis
     estimate = balance.cema if basis == "cema classic" else balance.classical
     if basis != "viscoelastic" and estimate is not None:
-        yield from (abs(balance.frame.motor(drive.share * estimate.total)) for drive in one.line.drives)
+        whole = balance.frame.shaft_power(estimate.motor_force)
+        yield from (abs(drive.share * whole) for drive in one.line.drives)
 
 
 def _design_or_shortfall(

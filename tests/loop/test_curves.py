@@ -86,11 +86,12 @@ def test_a_hill_costs_a_valley_saves_and_an_endless_radius_does_neither(hill):
 
 
 def test_a_relieved_belt_keeps_the_sum_of_its_loads():
-    assert masses_on_rolls(20.0, 80.0, -5.0, where="dip") == (15.0, 80.0)
-    assert masses_on_rolls(20.0, 80.0, -30.0, where="dip") == (0.0, 70.0)
-    assert masses_on_rolls(20.0, 80.0, 7.0, where="dip") == (27.0, 80.0)
-    with pytest.raises(NoSolutionError, match=r"the belt lifts off in dip: .*choose a larger curve_radius"):
-        masses_on_rolls(20.0, 0.0, -20.0, where="dip")
+    assert masses_on_rolls(20.0, 80.0, -5.0, radius=120.0, where="dip") == (15.0, 80.0)
+    assert masses_on_rolls(20.0, 80.0, -30.0, radius=120.0, where="dip") == (0.0, 70.0)
+    assert masses_on_rolls(20.0, 80.0, 7.0, radius=120.0, where="dip") == (27.0, 80.0)
+    # 20 kg/m hold down a pull that falls with 1/R: of 25 kg/m at 120 m no more from 150 m on
+    with pytest.raises(NoSolutionError, match=r"lifts off in dip: on its concave curve of 120 m .* beyond 150 m"):
+        masses_on_rolls(20.0, 0.0, -25.0, radius=120.0, where="dip")
     assert Strands.of(curved(VALLEY), CurveLoads({("dip", "carry"): -30.0})).stretches[1].bulk_mass > 0.0
 
 

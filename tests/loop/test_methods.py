@@ -13,7 +13,9 @@ import pytest
 import conveyor
 from conveyor.calculated_conveyor import Variant
 from conveyor.checks import run_checks
+from conveyor.dynamics.simulation import simulate_scenarios
 from conveyor.errors import InputError
+from conveyor.models import Scenario
 from conveyor.models.calculation_methods import METHOD_NAMES
 from conveyor.models.variants import with_case
 from conveyor.pipeline import calculate, calculate_many
@@ -146,6 +148,80 @@ def test_tensions_take_up_and_motors_follow():
     assert result.line.design_friction == 1.0  # f has the allowance of its standard
 
 
+def test_bearings_of_drive_pulleys_are_in_the_motor_power_and_not_in_te():
+    """CEMA: motors give (Te + bearings) v / η; every drive its share of both."""
+    made = calculate(by("overland", "cema classic", cema=CEMA | {"drive_pulley_friction": "5 kN"}))
+    plain = calculate(by("overland", "cema classic", cema=CEMA))
+    assert made.balance.forces.total == pytest.approx(plain.balance.forces.total, rel=ROUNDING)
+    power = (plain.balance.forces.total + 5e3) * 5.0 / 0.94
+    assert made.balance.power.motor == pytest.approx(power, rel=1e-9)
+    checks = [check.calculated for check in run_checks(made) if check.key == "motor_power"]
+    assert math.fsum(checks) == pytest.approx(power, rel=1e-9)
+    beside = calculate(by("overland", "viscoelastic", cema=CEMA | {"drive_pulley_friction": "5 kN"}))
+    assert beside.line.drive_bearings == 0.0
+
+
+def test_seals_of_a_loading_point_are_those_the_spec_gives():
+    line = by("in_plant_us", "cema classic", cema=CEMA)
+    made = line.replace(route=line.route.replace(feeding=line.route.feeding.replace(seal_drag="175 N/m")))
+    before, after = calculate(line), calculate(made)
+    boards = after.line.loading[0].boards(after.line.speed, after.line.gravity)
+    assert boards > 3.6576  # the skirts of 12 ft and the zone of acceleration
+    # seals of 6 lbf/ft, 87.56 N/m, on the same boards
+    more = after.balance.forces.total - before.balance.forces.total
+    assert more == pytest.approx((175.0 - 87.5634) * boards, rel=1e-4)
+
+
+def test_pulleys_before_a_drive_at_the_tail_are_of_the_tight_side():
+    """200 lbf each instead of 150 (CEMA): those of the return strand."""
+    line = by("downhill", "cema classic", cema=CEMA)
+    bend = {"name": "snub", "position": "return", "section": line.route.sections[0].name, "diameter": "500 mm",
+            "shaft_diameter": "100 mm", "mass": "300 kg"}  # fmt: skip
+    route = line.route.replace(pulleys=[*line.route.pulleys, bend], take_up={"kind": "gravity", "position": "head"})
+    pounds = {}
+    for position in ("head", "tail"):
+        drive = line.drive.replace(position=position)
+        forces = calculate(line.replace(drive=drive, route=route)).balance.singles
+        pounds[position] = {force.name: force.total / 4.4482216 for force in forces if force.key == "Tp"}["Tp, snub"]
+    assert pounds == pytest.approx({"head": 150.0, "tail": 200.0})
+
+
+@pytest.mark.parametrize(
+    ("method", "words"),
+    [
+        ("din 22101", "friction_factor: f is one for all temperatures; for -25 °C"),
+        ("cema classic", "temperature_factor is 1, which holds above freezing: for -25 °C"),
+    ],
+)
+def test_a_method_of_factors_says_that_the_cold_needs_its_own(method, words):
+    cema = CEMA | {"temperature_factor": 1.0}
+    line = by("overland", method, cema=cema)
+    case = {"name": "winter", "temperatures": ["-25 degC"]}
+    assert any(words in warning for warning in conveyor.analyse(line.replace(cases=[case])).warnings)
+    for warm in (line, by("overland", "viscoelastic", cema=cema).replace(cases=[case])):
+        assert not any(words in warning for warning in conveyor.analyse(warm).warnings)
+
+
+@pytest.mark.parametrize("method", ["iso 5048", "din 22101", "cema classic"])
+def test_scenarios_follow_the_method(method):
+    """Started and stopped with the forces of the method; at rest its rolls stick by the drag they have."""
+    scene = {"name": "stop", "begins": "running", "events": [{"do": "power off"}], "duration": "3 s"}
+    line = by("in_plant_us", method, cema=CEMA)
+    made = simulate_scenarios(line, [Scenario.from_data(scene)], error=0.05)
+    steady = calculate(line).balance.settled.steady
+    (stopped,) = made.followed
+    highest = max(stopped.record.tensions.max(), 0.0)
+    assert highest == pytest.approx(steady.drives[0].arriving, rel=0.05)
+
+
+def test_pulleys_that_are_driven_and_not_listed_are_named():
+    line = by("overland", "viscoelastic")
+    two = {"name": "drive 2", "wrap_angle": "210 deg", "friction": 0.35, "installed_power": "900 kW"}
+    shared = line.replace(drive=line.drive.replace(further_drives=[two]))
+    assert any("1 driven at head, the drives there turn 2" in said for said in conveyor.analyse(shared).warnings)
+    assert not any("driven at" in said for said in conveyor.analyse(line).warnings)
+
+
 def test_a_design_friction_is_taken_where_it_is_given():
     line = by("overland", "din 22101")
     high = calculate(line.replace(drive=line.drive.replace(design_friction="110 %")))
@@ -207,6 +283,8 @@ def test_the_rolling_contact_stands_beside():
 def test_what_a_method_does_not_know_is_refused():
     with pytest.raises(InputError, match=r"cema: missing: method cema classic needs Ky and Ai"):
         by("overland", "cema classic")
+    with pytest.raises(InputError, match='secondary: got "C" beside method cema classic, which has Tp and Tam'):
+        by("overland", "cema classic", cema=CEMA, secondary="C")
     with pytest.raises(InputError, match="calibration"):
         by("overland", "din 22101", calibration={"indentation": 1.2})
     with pytest.raises(InputError, match='"din 22101" knows no rubber; compounds are compared'):

@@ -131,6 +131,15 @@ def test_of_a_limit_at_zero_the_lowest_governs() -> None:
     assert [case_of(one) for one in governing_by_subject(slack)] == ["b"]
 
 
+def test_a_limit_of_zero_that_any_figure_meets_does_not_govern() -> None:
+    """Skirtboards of 2.5 m: 0.64 m are asked of the loaded belt, nothing of a state without bulk there."""
+    boards = [
+        Check("k", message("s"), 2.5, required, "length", message(""), message(""), "pass", case=message(name))
+        for name, required in (("empty", 0.0), ("full", 0.637))
+    ]
+    assert [case_of(one) for one in governing_by_subject(boards)] == ["full"]
+
+
 def test_subjects_govern_one_by_one_criteria_by_the_worst_of_them() -> None:
     every = [
         made("a", "pass", 1.5, "left"), made("a", "pass", 1.4, "right"), made("a", "pass", 3.0, key="other"),

@@ -121,8 +121,9 @@ def _governing_rows(assessment: Assessment) -> Iterator[GoverningRow]:
 
 def _classical_power(a: CalculatedConveyor, power: Unit) -> GoverningRow:
     """Power by a given f, and its difference from the expected one by cause."""
-    balance, classical, motor = a.balance, a.balance.classical, a.balance.frame.motor
-    here, there, more = balance.power.motor, motor(classical.total), classical.total - balance.forces.total
+    balance, classical = a.balance, a.balance.classical
+    here, there = balance.power.motor, balance.frame.shaft_power(classical.motor_force)
+    more = classical.total - balance.forces.total
     watts = (there - here) / more if more else 0.0
     main = {force.key for force in balance.along if force.kind == "main"}
     parts = [(name, newtons / balance.unit_main) for name, newtons in balance.forces.parts.items() if name in main]

@@ -8,7 +8,7 @@ from functools import partial
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.drives import GEAR_SERVICE, next_preferred_number
-from conveyor.loop.drive_duty import coasting_flywheel
+from conveyor.loop.drive_duty import DriveDuty, coasting_flywheel
 from conveyor.report.table_model import Column, Figure, PagePlacement, Table, extreme_getter, figure_table
 from conveyor.studies.load_cases import Load
 
@@ -20,7 +20,7 @@ def drive_table(a: CalculatedConveyor) -> Table:
         Column("drive", "text", "0.name"),
         Column("state", "text", "1"),
         Column("force", "force", "2.force"),
-        Column("motor power at full speed", "power", lambda row: motor(row[2].force)),
+        Column("motor power at full speed", "power", lambda row: motor(row[2].force, row[0].share)),
         Column("installed power", "power", "0.power"),
         Column("arriving", "force", "2.arriving"),
         Column("leaving", "force", "2.leaving"),
@@ -109,13 +109,17 @@ def brake_table(a: CalculatedConveyor) -> Table:
     return Table("brakes", "Loop", "Brakes", columns, rows, "start-stop")
 
 
+def _uncontrolled_power(a: CalculatedConveyor, duty: DriveDuty) -> float | None:
+    """Power of a drive where nothing but the belt couples the drives [W]; None where none differs."""
+    return None if duty.shared is None else a.balance.frame.motor(duty.shared, duty.drive.share)
+
+
 def drive_parts(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     """Parts of the drives: gear, backstop, starts, brake, load sharing; worst of all cases."""
     every = [load.found.drive_duty for load in loads]
     rows = [(own, [duties[i] for duties in every]) for i, own in enumerate(a.drive_duty)]
 
     worst = partial(extreme_getter, path="1")
-    motor = a.balance.frame.motor
     service = next((duty.parts.service for duty in a.drive_duty), GEAR_SERVICE.value)
     columns = (
         Column("drive", "text", "0.drive.name"),
@@ -135,7 +139,7 @@ def drive_parts(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
         Column("heat of a stop", "heat", worst(max, get="heat"), sparse=True),
         Column("rise of the disc", "rise", worst(max, get="disc_rise"), sparse=True),
         Column("motor power, uncontrolled", "power",
-               worst(partial(max, key=abs), get=lambda duty: None if duty.shared is None else motor(duty.shared)),
+               worst(partial(max, key=abs), get=partial(_uncontrolled_power, a)),
                sparse=True),
     )  # fmt: skip
     note = (

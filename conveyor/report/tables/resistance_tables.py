@@ -9,8 +9,7 @@ from typing import Final
 
 from conveyor.calculated_conveyor import CalculatedConveyor, StretchResult
 from conveyor.line.roll_lives import idler_set_life
-from conveyor.loop.balance import Balance
-from conveyor.loop.estimates import CemaEstimate, ClassicalEstimate, estimate_of_forces
+from conveyor.loop.estimates import ClassicalEstimate, estimate_of_forces
 from conveyor.models.calculation_methods import FACTOR_METHODS, METHOD_NAMES
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Figure, PagePlacement, Table
 
@@ -117,7 +116,7 @@ def classical_table(a: CalculatedConveyor, by_contact: CalculatedConveyor | None
     def row(label: str, kind: str, name: str, here: float) -> Figure:
         return Figure(label, kind, (here, *(getattr(made, name) for _, made in others)), key=name)
 
-    powers = (balance.power.motor, *(estimate_motor_power(balance, made) for _, made in others))
+    powers = (balance.power.motor, *(balance.frame.shaft_power(made.motor_force) for _, made in others))
 
     rows = (
         row("f", "friction", "friction_factor", balance.friction_factor),
@@ -163,9 +162,3 @@ def cema_table(a: CalculatedConveyor) -> Table:
         + ("the book's, by place and wrap" if given.pulleys is None else "the spec's")
     )
     return Table("cema", "Resistances", heading, columns, rows, "resistances", note, foot="Te", named=2)
-
-
-def estimate_motor_power(balance: Balance, made: ClassicalEstimate) -> float:
-    """Motor power of an estimate [W]; that of CEMA includes the bearings of the drive pulleys."""
-    beside = made.drive_pulleys if isinstance(made, CemaEstimate) else 0.0
-    return balance.frame.motor(made.total + beside)

@@ -32,7 +32,6 @@ from conveyor.report.tables.analysis_contents import AnalysisTables
 from conveyor.report.tables.check_tables import CHECK_KEYS, check_pairs
 from conveyor.report.tables.comparison_tables import COMPARISON_KEYS
 from conveyor.report.tables.dynamics_tables import DYNAMICS_KEYS, SCENARIO_KEYS
-from conveyor.report.tables.resistance_tables import estimate_motor_power
 from conveyor.report.tables.study_json import STUDY_KEYS, TAKE_UP_KEYS
 
 
@@ -61,7 +60,7 @@ def _estimate_getter(name: str) -> Callable[[_Source], _Estimate | None]:
     def found(source: _Source) -> _Estimate | None:
         balance = source.own.balance
         made = getattr(balance, name)
-        return None if made is None else _Estimate(made, estimate_motor_power(balance, made))
+        return None if made is None else _Estimate(made, balance.frame.shaft_power(made.motor_force))
 
     return found
 
@@ -138,7 +137,8 @@ _POWER: Final = JsonObject(
         ).of(lambda source: asdict(source.own.balance.tensions)),
         "drives": JsonList(
             lambda source: [
-                (side, source.own.balance.frame.motor(side.force)) for side in source.own.balance.settled.steady.drives
+                (side, source.own.balance.frame.motor(side.force, drive.share))
+                for drive, side in zip(source.own.line.drives, source.own.balance.settled.steady.drives, strict=True)
             ],
             item=JsonObject(
                 lambda pair: pair,
