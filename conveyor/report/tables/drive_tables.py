@@ -45,17 +45,23 @@ def drive_table(a: CalculatedConveyor) -> Table:
     )
 
 
+def unsteady_words(a: CalculatedConveyor) -> str:
+    """Words for the state at the start factor: the start, or the motors' braking of a belt that drives them."""
+    return "at start" if a.balance.settled.force >= 0.0 else "in braking by the motors"
+
+
 def start_stop_table(a: CalculatedConveyor) -> Table:
     """Start, stop, brakes and limits of material slip."""
     moving = a.motions
     start, slip = moving.start, moving.slip
     holder = "backstop" if moving.rolls_back else "brake"
+    at = unsteady_words(a)
     rows = [
         Figure("moving mass", "mass", moving.moving_mass),
         Figure("rotating mass of the drives", "mass", moving.rotating_mass),
-        Figure("drive force at start", "force", start.force),
-        Figure("drive force at start over steady", "ratio", start.factor),
-        Figure("acceleration at start", "acceleration", start.acceleration),
+        Figure(f"drive force {at}", "force", start.force, key="drive_force_at_start"),
+        Figure(f"drive force {at} over steady", "ratio", start.factor, key="drive_force_at_start_over_steady"),
+        Figure(f"acceleration {at}", "acceleration", start.acceleration, key="acceleration_at_start"),
         Figure("time over the whole speed range", "time", start.time),
         Figure("motor torque at start over rated", "ratio", start.torque_factor),
         Figure("required motor force", "force", start.asked, key="force_asked_of_the_motors"),

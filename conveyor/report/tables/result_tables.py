@@ -8,6 +8,7 @@ from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.default_bands import PowerRange
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.report.table_model import Column, Figure, PagePlacement, Table, figure_table
+from conveyor.report.tables.drive_tables import unsteady_words
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, format_figure
 
@@ -25,7 +26,7 @@ def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
     # six figures in large: by a classical method two others stand for the share
     share = forces.indentation / forces.main if a.line.method == "viscoelastic" else None
     error, energy_error = a.contacts.error, a.contacts.energy_error
-    safety, of_year = a.belt_duty.safety, a.year
+    safety, of_year, at = a.belt_duty.safety, a.year, unsteady_words(a)
     energy, cost = (None, None) if of_year is None else (of_year.energy * JOULE_PER_KWH, of_year.cost)
     money = f"{MONEY}{(of_year and of_year.currency) or '-'}"
     rows = (
@@ -59,9 +60,9 @@ def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
         Figure("tight side tension", "force", tensions_at.tight,
                f"tile {'large ' if share is None else ''}notebook", us="T1"),
         Figure("slack side tension", "force", tensions_at.slack, "notebook", us="T2"),
-        Figure("tight side tension at start", "force", tensions_at.tight_start),
+        Figure(f"tight side tension {at}", "force", tensions_at.tight_start, key="tight_side_tension_at_start"),
         Figure("minimum tension, steady", "force", tensions_at.smallest, key="smallest_tension"),
-        Figure("belt safety at start", "ratio", safety),
+        Figure(f"belt safety {at}", "ratio", safety, key="belt_safety_at_start"),
         Figure("energy", "specific energy", power.energy_per_tonne_km, "tile large notebook",
                key="specific_energy"),
         Figure("energy per year", "energy", energy),
