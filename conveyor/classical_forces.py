@@ -33,7 +33,7 @@ from conveyor.line.bend_pulleys import BendPulley
 from conveyor.line.cema_factors import CemaFactors
 from conveyor.line.hopper_outlets import HopperOutlet
 from conveyor.line.line import Line
-from conveyor.line.stretches import Stretch
+from conveyor.line.stretches import Strand, Stretch
 from conveyor.line.transfer_parts import LoadingPoint
 from conveyor.models.calculation_methods import METHOD_NAMES
 
@@ -161,15 +161,15 @@ def cema_forces_along(line: Line, factors: CemaFactors) -> tuple[Force, ...]:
     back = [parts[one.section] for one in line.stretches[count:]]
     none = np.zeros(count)
 
-    def force(symbol: str, name: str, of_carry: Array, of_return: Array) -> Force:
-        both = np.concatenate([of_carry, of_return])
-        return Force(symbol, f"{symbol}, {name}", "main", both, f"{_BOOK}, {symbol}", short=symbol)
+    def force(symbol: str, name: str, strand: Strand, newtons: list[float]) -> Force:
+        both = np.concatenate([newtons, none] if strand == "carry" else [none, newtons])
+        return Force(symbol, f"{symbol}, {name}", "main", both, f"{_BOOK}, {symbol}", short=symbol, only_on=strand)
 
     return (
-        force("Tx", "idlers", np.array([part.idlers for part in carry]), none),
-        force("Tyc", "flexure of the belt, carry", np.array([part.belt_carry for part in carry]), none),
-        force("Tyr", "flexure of the belt, return", none, np.array([part.belt_return for part in back])),
-        force("Tym", "flexure of the bulk", np.array([part.bulk for part in carry]), none),
+        force("Tx", "idlers", "carry", [part.idlers for part in carry]),
+        force("Tyc", "flexure of the belt, carry", "carry", [part.belt_carry for part in carry]),
+        force("Tyr", "flexure of the belt, return", "return", [part.belt_return for part in back]),
+        force("Tym", "flexure of the bulk", "carry", [part.bulk for part in carry]),
         *bed_forces(line),
     )
 

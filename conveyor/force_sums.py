@@ -43,6 +43,8 @@ class Force:
         Number of the section whose bulk causes it; None without bulk, and along the belt.
     at_sag_limit : ndarray or None, shape (2n,)
         Flexure at the largest sag [N], of which the tension that stands there leaves `newtons`; None if independent.
+    only_on : {"carry", "return"} or None
+        The strand of a force that the other one never has; its name says it. None for both.
     """
 
     key: str
@@ -57,6 +59,7 @@ class Force:
     assumed: bool = False
     bulk: int | None = None
     at_sag_limit: Array | None = None
+    only_on: Strand | None = None
 
     @property
     def total(self) -> float:
@@ -123,3 +126,14 @@ class ForceSums:
 
 
 _AFTER_MAIN = ("secondary", "special", "lift")
+
+
+def force_label(key: str) -> str:
+    """Return the name of a part of the forces or of a kind of theirs; the lift alone is a height.
+
+    Examples
+    --------
+    >>> force_label("idler_rotation"), force_label("lift")
+    ('idler rotation', 'lift force')
+    """
+    return "lift force" if key == "lift" else key.replace("_", " ")

@@ -138,7 +138,7 @@ def forces_along_belt(
     calibration : Calibration, optional
         Factors on indentation, rotation, flexure and misalignment; 1 without.
     """
-    lift = Force("lift", "lift", "lift", fixed.lift, "ISO 5048, F_St", certain=True, short="lift force")
+    lift = Force("lift", "lift force", "lift", fixed.lift, "ISO 5048, F_St", certain=True)
     if line.method == "cema classic" and line.cema is not None:
         return (*cema_forces_along(line, line.cema), *_guidance_forces(fixed), lift)
     tilt = Force("tilt", "idler tilt", "special", fixed.tilt, "ISO 5048, F_e")

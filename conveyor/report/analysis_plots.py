@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from conveyor.contact import solve
 from conveyor.errors import InputError
+from conveyor.force_sums import force_label
 from conveyor.indentation import to_problem
 from conveyor.laws.tension import grip_tension
 from conveyor.line.contacts import Contacts, RollResult
@@ -104,7 +105,7 @@ def _bar_style(k: int) -> dict[str, Any]:
 
 def _resistance_label(name: str) -> str:
     words = {"total": "effective tension", "main": "main resistance"}
-    return words.get(name, name.replace("_", " "))
+    return words.get(name, force_label(name))
 
 
 def governing_roll(contacts: Contacts, strand: Strand) -> RollResult:

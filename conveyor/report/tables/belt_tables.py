@@ -65,7 +65,7 @@ def pulley_loads(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
         Column("pulley", "text", "0.pulley.name"),
         Column("driven", "verdict", lambda row: "yes" if row[0].pulley.driven else "no", page=None),
         Column("diameter", "size", "0.pulley.diameter"),
-        Column("wrap", "angle", "0.pulley.wrap_angle", page=None),
+        Column("wrap angle", "angle", "0.pulley.wrap_angle", page=None, key="wrap"),
         Column("rotation", "rotation", extreme_getter(max, "3", "rotation"), page=None),
         Column("resultant, steady", "force", "0.steady.resultant", page=None),
         Column("largest resultant", "force", "2.largest.resultant"),

@@ -133,7 +133,7 @@ def _classical_power(a: CalculatedConveyor, power: Unit) -> GoverningRow:
         ("secondary resistances by C" if classical.secondary_by.startswith("(C") else "secondary resistances",
          "secondary"),
         ("special resistances", "special"),
-        ("lift", "lift"),
+        ("lift force", "lift"),
     )  # fmt: skip
     changes = [(name, watts * (getattr(classical, key) - getattr(balance.forces, key))) for name, key in causes]
     shown = [(name, change) for name, change in changes if abs(change) > _SMALL_CHANGE * abs(here)]

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Final
 
 from conveyor.calculated_conveyor import CalculatedConveyor, StretchResult
+from conveyor.force_sums import force_label
 from conveyor.line.roll_lives import idler_set_life
 from conveyor.loop.estimates import ClassicalEstimate, estimate_of_forces
 from conveyor.models.calculation_methods import FACTOR_METHODS, METHOD_NAMES
@@ -56,20 +57,21 @@ def _set_life_seconds(r: StretchResult) -> float | None:
 
 def resistance_table(a: CalculatedConveyor) -> Table:
     """Resistances with their sources; the rows add up to the effective tension."""
-    by_strand = [
-        (f"{force.name}, {strand}", force.kind, newtons, force.source)
+    along = [
+        (f"{force.name}, {strand}" if force.only_on is None else force.name, force.kind, newtons, force.source)
         for force in a.balance.along
         for strand, newtons in force.by_strand().items()
+        if force.only_on in {None, strand}
     ]
     total = a.balance.forces.total
     columns = (
         Column("resistance", "text", "0"),
-        Column("kind", "text", "1"),
+        Column("kind", "text", lambda row: force_label(row[1])),
         Column("force", "force", "2", total=True),
         Column("share", "share", lambda row: _share_or_nan(row[2], total), total=total != 0.0),
         Column("source", "text", "3"),
     )
-    rows = (*by_strand, *((each.name, each.kind, each.total, each.source) for each in a.balance.singles))
+    rows = (*along, *((each.name, each.kind, each.total, each.source) for each in a.balance.singles))
     heading = "Resistances and their sources"
     return Table("resistances", "Resistances", heading, columns, rows, "resistances", foot="effective tension")
 
@@ -90,7 +92,7 @@ def breakdown_table(a: CalculatedConveyor) -> Table:
     """Sums of the forces by kind, with their shares."""
     forces = a.balance.forces
     columns = (
-        Column("resistance", "text", lambda name: name.replace("_", " ")),
+        Column("resistance", "text", force_label),
         Column("force", "force", forces.parts.get),
         Column("share of total", "share", lambda name: _share_or_nan(forces.parts[name], forces.total)),
         Column("part of f", "friction", lambda name: _friction_part(a, name)),
@@ -123,7 +125,7 @@ def classical_table(a: CalculatedConveyor, by_contact: CalculatedConveyor | None
         row("main", "force", "main", forces.main),
         row("secondary", "force", "secondary", forces.secondary),
         row("special", "force", "special", forces.special),
-        row("lift", "force", "lift", forces.lift),
+        row("lift force", "force", "lift", forces.lift),
         replace(row("effective tension", "force", "total", forces.total), us="Te"),
         Figure("motor power", "power", powers, key="motor"),
     )

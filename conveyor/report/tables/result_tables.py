@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.default_bands import PowerRange
+from conveyor.force_sums import force_label
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.report.table_model import Column, Figure, PagePlacement, Table, figure_table
 from conveyor.report.tables.drive_tables import unsteady_words
@@ -45,7 +46,7 @@ def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
         Figure("effective tension", "force", forces.total, "tile large notebook", "forces_N.total", us="Te"),
         *(
             Figure(
-                "lift force" if name == "lift" else name.replace("_", " "), "force", newtons, "notebook",
+                force_label(name), "force", newtons, "notebook",
                 f"forces_N.{name}", key=f"{name}_force",
             )
             for name, newtons in forces.parts.items()
