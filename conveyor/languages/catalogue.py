@@ -61,5 +61,10 @@ def load_catalogue(language: str) -> Catalogue:
     import polib
 
     content = files("conveyor.languages").joinpath(f"{language}.po").read_text("utf-8")
-    texts = MappingProxyType({entry.msgid: entry.msgstr for entry in polib.pofile(content)})
-    return Catalogue(language, texts, NUMBER_FORMATS[language])
+    texts = {entry.msgid: entry.msgstr for entry in polib.pofile(content)}
+    return Catalogue(language, MappingProxyType(_without_stops(texts) | texts), NUMBER_FORMATS[language])
+
+
+def _without_stops(texts: Mapping[str, str]) -> dict[str, str]:
+    """Sentences as they stand before another one, from which they are divided at its stop."""
+    return {english[:-1]: text.rstrip(".。") for english, text in texts.items() if english.endswith(".")}

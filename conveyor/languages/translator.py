@@ -28,8 +28,11 @@ _SAME: Final = re.compile(
     r"|(?:[A-Za-z0-9]+(?:_[A-Za-z0-9]+)+|[0-9a-f]{12,}|\"[^\"]*\")"  # a key, a fingerprint, a name in quotes
     r"|(?:[A-Z]{1,4}-?\d[\w/.-]*|\S+\.[a-z]{2,4}(?:[/:]\S*)?)"  # a part or belt of a series, a file or site
     r"|(?:cp\d+|tau|dyn/cm\^2|ksi|min)"  # an encoding, a column and units of laboratory files
-    r"|(?:[A-Z]'{0,2}|[a-zA-Z](?:_\w+)?|T(?:[12e]|max|min)|tan δ|\(C-1\) F_H|\|E\*\|/b_T)"  # a symbol
+    r"|(?:[A-Z]'{0,2}|[a-zA-Z](?:_\w+)?|T(?:[12e]|max|min)|tan δ|\(C-1\) F_H|\|E\*\|/b_T"
+    r"|T(?:x|yc|yr|ym|m|p|am|sb|bc|pl|ac))"  # a symbol
 )
+_SYMBOL_FIGURE: Final = re.compile(rf"(?:f =|K[xyt]|T(?:x|yc|yr|ym)) {NUMBER}")
+"""A symbol with its figure."""
 _WITH_UNIT: Final = re.compile(r"(.+) (\[[^][]+\]|T(?:[12e]|max|min))", re.DOTALL)
 """A label with its unit, or with its symbol in US reports."""
 _LEAST_LETTERS: Final = 8
@@ -131,9 +134,9 @@ class Translator:
 
     def _whole(self, words: str) -> str | None:
         """Translation of a text known whole, or the text where it is the same in all languages; None for others."""
-        if not words.strip() or words in self.names or self._is_made(words):
+        if not words.strip() or words in self.names:
             return words
-        if _figure_pattern().fullmatch(words) or not _LATIN.search(words):
+        if any(one.fullmatch(words) for one in (_figure_pattern(), _SYMBOL_FIGURE)) or not _LATIN.search(words):
             return self.catalogue.numbers.localise(words)
         if words in self.catalogue.texts:
             return self.catalogue.texts[words]
