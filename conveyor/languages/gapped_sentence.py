@@ -29,8 +29,8 @@ def gap_pattern(words: str) -> re.Pattern[str]:
 class GappedSentence:
     """A sentence with gaps: its pattern, translation, longest piece and number of letters.
 
-    Of every gap: whether it stays as it is, a name in quotation marks or part of a path, and whether commas may be in
-    what fills it.
+    Of every gap: whether it stays as it is, a name in quotation marks or part of a path; whether a name of the user may
+    fill it, behind a comma or before the word pulley; whether commas may be in what fills it.
     """
 
     pattern: re.Pattern[str]
@@ -38,6 +38,7 @@ class GappedSentence:
     piece: str
     letters: int
     quoted: tuple[bool, ...]
+    named: tuple[bool, ...]
     bounded: tuple[bool, ...]
 
     @classmethod
@@ -49,9 +50,10 @@ class GappedSentence:
             (one.endswith('"') and next_.startswith('"')) or one.endswith(".") or _PATH_END.match(next_) is not None
             for one, next_ in pairwise(pieces)
         )
+        named = tuple(one.endswith(", ") or next_.startswith(" pulley") for one, next_ in pairwise(pieces))
         bounded: list[bool] = []
         for one, next_ in pairwise(pieces):
             marks = one.endswith((", ", ": ", "; ", "(", '"')) or next_.startswith((",", ":", ";", ")", '"'))
             bounded.append(letters >= _SHORT or marks or (one == "" and bounded[-1:] == [True]))
         longest = max(pieces, key=len)
-        return cls(gap_pattern(english), translation, longest, letters, quoted, tuple(bounded))
+        return cls(gap_pattern(english), translation, longest, letters, quoted, named, tuple(bounded))

@@ -56,7 +56,7 @@ class Translator:
     catalogue : Catalogue
         Texts of the language.
     names : collection of str
-        Names that the user gave; they stay as they are.
+        Names that the user gave; they stay as they are where they stand alone, between marks or before "pulley".
 
     Examples
     --------
@@ -150,11 +150,16 @@ class Translator:
                 gaps = zip(found.groups(), sentence.bounded, strict=True)
                 if any(_has_comma(part) for part, bounded in gaps if not bounded):
                     continue  # the sentence is one of the parts
-                gaps = zip(found.groups(), sentence.quoted, strict=True)
-                parts = [(part, ()) if quoted else self._resolve(part) for part, quoted in gaps]
+                filled = zip(found.groups(), sentence.quoted, sentence.named, strict=True)
+                parts = [(part, ()) if quoted else self._filling(part, named) for part, quoted, named in filled]
                 left = tuple(one for _, missing in parts for one in missing)
                 if not left or sentence.letters >= _LEAST_LETTERS:
                     yield sentence.translation.format(*(part for part, _ in parts)), left
+
+    def _filling(self, words: str, named: bool) -> tuple[str, tuple[str, ...]]:
+        """Translation of what fills a gap: where no name stands, a word of the report though a name is spelled so."""
+        own = not named and words in self.names and words in self.catalogue.texts
+        return (self.catalogue.texts[words], ()) if own else self._resolve(words)
 
     def _by_parts(self, words: str) -> Iterator[tuple[str, tuple[str, ...]]]:
         if words.endswith((".", ":")):

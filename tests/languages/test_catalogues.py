@@ -92,10 +92,63 @@ def test_longer_sentences_go_first_and_parts_are_translated():
     }
     translator = Translator(Catalogue("de", entries, NumberFormat(",", ".")), frozenset({"full"}))
     assert translator.text("worst for drive force, 2.5 kN") == "ungünstigst für Antriebskraft, 2,5 kN"
-    assert translator.text("drive full") == "Antrieb full"
+    assert (translator.text("drive full"), translator.text("full")) == ("Antrieb voll", "full")
     assert translator.heading("full") == "voll"
     assert translator.text("Drive force") == "Antriebskraft"
     assert translator.text("  drive force\n") == "  Antriebskraft\n"
+
+
+@pytest.mark.parametrize(
+    ("english", "german"),
+    [
+        ("top", "top"),
+        ("thickness of the top cover", "Dicke der Deckplatte oben"),
+        ("required top cover", "erforderliche Deckplatte oben"),
+        ("travel, load", "Weg, Last"),
+        ("load, carry, start", "load, Obertrum, Anfahren"),
+        ("full (worst for drive force)", "voll (ungünstigster für Antriebskraft)"),
+        ("diameter, head pulley", "Durchmesser, Trommel head"),
+        ("head transition: no strip slack", "Übergang am Kopf: kein Streifen schlaff"),
+        ("concave curve, top, carry: no strip slack", "Kurve konkav, top, Obertrum: kein Streifen schlaff"),
+        (
+            'section "top", carry: the empty belt lifts off on the concave curve of 200.5 m; no radius helps',
+            'Abschnitt "top", Obertrum: der leere Gurt hebt ab in der Kurve (konkav) mit Radius 200,5 m; '
+            "kein Radius hilft",
+        ),
+    ],
+)
+def test_names_that_are_words_of_the_report_leave_it_its_words(english, german):
+    """A section "top" or "load", a pulley "head", a case "full"."""
+    translator = report_translator("de", frozenset({"top", "load", "head", "full"}))
+    assert (translator.text(english), translator.missing) == (german, {})
+
+
+@pytest.mark.parametrize(
+    ("english", "german"),
+    [
+        ("DIN 22101, f = 0.022", "DIN 22101, f = 0,022"),
+        ("main resistance, f = 0.018 to 0.028, carry", "Hauptwiderstand, f = 0,018 bis 0,028, Obertrum"),
+        (
+            "gravel, 1,600 kg/m³ (at its heaviest 1,900 kg/m³)",
+            "gravel, 1.600 kg/m³ (im schwersten Zustand 1.900 kg/m³)",
+        ),
+        ("lift force, carry", "Steigungswiderstand, Obertrum"),
+        ("Tyc, flexure of the belt, carry", "Tyc, Walkwiderstand des Gurts, Obertrum"),
+        ("Tx 0.0082, Tyc 0.0047", "Tx 0,0082, Tyc 0,0047"),
+    ],
+)
+def test_symbols_keep_their_letters_and_have_the_numbers_of_the_language(english, german):
+    translator = report_translator("de", frozenset({"gravel"}))
+    assert (translator.text(english), translator.missing) == (german, {})
+
+
+def test_a_sentence_before_another_is_translated_and_kept_cells_touch_no_sentence():
+    translator = report_translator("de")
+    translator.keep("0.9 m")
+    both = "Every cleaner takes the same share of what reaches it; over the width of its blade. speed"
+    assert translator.text(both).startswith("Jeder Abstreifer nimmt denselben Anteil")
+    assert translator.text("at least 0.9 m are needed") == "mindestens 0,9 m sind nötig"
+    assert translator.text("0.9 m") == "0.9 m"
 
 
 def test_what_has_no_translation_is_named_and_stays():
