@@ -99,6 +99,8 @@ HEAD = "motor power [kW],flow [t/h]"
         ([HEAD, "250,"], r"runs.csv:2: column 2: flow \[t/h\], 0 where empty is missing in the row"),
         ([HEAD, ",100"], r"runs.csv:2: column 1: motor power \[kW\] or mains power \[kW\] is missing"),
         ([HEAD, "250,-5"], r"runs.csv:2: flow: got -5 t/h, allowed: >= 0 t/h"),
+        ([f"{HEAD},standard deviation [%]", "250,1,200"], r'3 "standard deviation \[%\]": got 200 % of the power'),
+        ([f"{HEAD},standard deviation [kW]", "250,1,300"], r"runs.csv:2: deviation: got 300 kW of a power of 250 kW"),
         ([HEAD, "250,1,7"], r"runs.csv:2: column 3: a cell beyond the last header"),
         (["motor power [bar],flow [t/h]", "250,1"], r'column 1 "motor power \[bar\]": got "250 bar"'),
         (["motor power,flow [t/h]", "250,1"], r"column 1 .*got \"?250\"?"),

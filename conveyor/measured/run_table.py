@@ -53,7 +53,10 @@ def read_runs(path: str | Path) -> tuple[MeasuredRun, ...]:
 def _measured_run(row: MeasuredRow) -> MeasuredRun:
     given = {**row.given, "at": _POWER_POINTS[row.header("power")]}
     if "deviation" in given and given["deviation"].dimensionless:
-        given["deviation"] = abs(given["power"]) * float(given["deviation"].to_base_units().magnitude)
+        share = float(given["deviation"].to_base_units().magnitude)
+        if not 0.0 < share < 1.0:
+            raise row.refusal(f"got {100.0 * share:g} % of the power, allowed: > 0 % and < 100 %", "deviation")
+        given["deviation"] = abs(given["power"]) * share
     try:
         return MeasuredRun.from_data(given)
     except InputError as error:

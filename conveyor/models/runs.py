@@ -8,7 +8,7 @@ from pydantic import StringConstraints, model_validator
 
 from conveyor.models.base import Model, Problem, raise_problems
 from conveyor.models.operation import BeltSpeed, EarthTemperature
-from conveyor.units import Bounds, MassFlow, Power, si
+from conveyor.units import Bounds, MassFlow, Power, si, text
 
 MeasuringPlace = Literal["motor shaft", "mains"]
 
@@ -29,7 +29,7 @@ class MeasuredRun(Model):
     air_temperature: EarthTemperature | None = None
     """Of the air; the spec's distance to the covers without it."""
     deviation: Annotated[Power, Bounds(gt="0 W")] | None = None
-    """Standard deviation of the power, of meter and of flow together."""
+    """Standard deviation of the power, of meter and of flow together; less than the power."""
     note: Annotated[str, StringConstraints(max_length=200)] = ""
     """What else to know of it."""
 
@@ -63,6 +63,13 @@ class MeasuredRun(Model):
         """Flow, speed and temperatures [kg/s, m/s, K]; runs of equal state are calculated once."""
         given = (self.flow, self.speed, self.temperature, self.air_temperature)
         return tuple(None if value is None else si(value) for value in given)
+
+    @model_validator(mode="after")
+    def _deviation_below_power(self) -> Self:
+        if self.deviation is not None and self.watts != 0.0 and si(self.deviation) >= abs(self.watts):
+            message = f"got {text(self.deviation)} of a power of {text(self.power)}, allowed: less than the power"
+            raise_problems("MeasuredRun", [Problem(("deviation",), message)])
+        return self
 
     @model_validator(mode="after")
     def _covers_before_air(self) -> Self:

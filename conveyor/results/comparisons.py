@@ -145,7 +145,8 @@ def calibrate(
     runs : path or sequence of MeasuredRun
         Measured power: a file or data.
     error : float, optional
-        Relative standard deviation of a power [-], for runs that do not state theirs; by default from the residuals.
+        Relative standard deviation of a power [-], for runs that do not state theirs; by default from the residuals,
+        with bands no narrower than 2 % make them.
     factors : sequence of str, optional
         Those of indentation, idler_rotation, flexure and misalignment to fit; by default as many as the runs resolve.
     rtol : float, optional

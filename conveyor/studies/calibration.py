@@ -3,8 +3,8 @@
 Every run is the conveyor of the spec at its flow, speed and temperature; all contacts are solved in one batch, once.
 The forces are then scaled and the loop of tensions is closed again (Gauss-Newton: the power is nearly linear in the
 factors), weighted least squares. Factors that the runs do not resolve are joined: the grouping with the most factors
-whose bands are narrow enough is taken. Derived; least squares and bands as in every textbook (Seber and Lee, Linear
-Regression Analysis, 2003, chapters 3 and 5).
+whose bands are expected to be narrow enough is taken. Derived; least squares and bands as in every textbook (Seber and
+Lee, Linear Regression Analysis, 2003, chapters 3 and 5).
 """
 
 from __future__ import annotations
@@ -127,7 +127,8 @@ def fit_factors(
     runs : sequence of MeasuredRun
         Measured power.
     error : float, optional
-        Relative standard deviation of a power [-], for runs that do not state theirs; by default from the residuals.
+        Relative standard deviation of a power [-], for runs that do not state theirs; by default from the residuals,
+        with bands no narrower than 2 % make them.
     factors : sequence of str, optional
         Those of indentation, idler_rotation, flexure and misalignment to fit, each for itself, the others stay 1; by
         default as many as the runs resolve, the others joined.
@@ -152,7 +153,9 @@ def fit_factors(
     Notes
     -----
     Bands hold nine tenths: from the errors stated, widened by the root of chi square over its degrees of freedom where
-    that is improbable (below 1 %), or from the residuals, with Student's t. The forces that have no factor (lift, tilt,
+    that is improbable (below 1 %), or from the residuals, with Student's t, and then no narrower than a known error of
+    `TYPICAL_ERROR` makes them. Which factors are joined is decided before the fit, by the bands to be expected: chosen
+    by its residuals a grouping would have bands that hold less. The forces that have no factor (lift, tilt,
     secondary resistances) and the efficiencies are taken as the spec says.
     """
     require_rolling_contact(conveyor, "factors of its forces are found")
@@ -198,9 +201,12 @@ def _check_runs(
     unknown = [name for name in factors or () if name not in CALIBRATED_FORCES]
     if unknown or (factors is not None and not factors):
         raise InputError(f"factors: got {', '.join(unknown) or 'none'}, allowed: {', '.join(CALIBRATED_FORCES)}")
+    twice = next((name for name in factors or () if list(factors or ()).count(name) > 1), None)
+    if twice is not None:
+        raise InputError(f"factors: {twice} is given twice; each one once")
     if error is not None and not 0.0 < error < 1.0:
         raise InputError(f"error = {error:g}: a standard deviation over the power, between 0 and 1, is needed")
-    wanted = 1 if factors is None else len(set(factors))
+    wanted = 1 if factors is None else len(factors)
     if len(runs) < wanted or not runs:
         raise InputError(f"{len(runs)} runs for {wanted} factors: give as many runs as factors at least")
     for number, run in enumerate(runs, start=1):

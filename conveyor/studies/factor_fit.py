@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -30,12 +30,12 @@ Grouping = tuple[Group, ...]
 
 
 TYPICAL_ERROR: Final = 0.02
-"""Relative standard deviation of a measured power assumed until residuals are known: general knowledge (a power meter
-of 0.5 to 1 % and a belt scale of 1 to 2 %)."""
+"""Relative standard deviation of a measured power: general knowledge (a power meter of 0.5 to 1 % and a belt scale of 1
+to 2 %). Without stated errors it decides the grouping, and no band is narrower than it makes it."""
 
 
 WIDEST_BAND: Final = 0.25
-"""Widest half band of a factor that is reported: a wider one says less than a guess (general knowledge)."""
+"""Widest half band to be expected of a fitted factor: a wider one says less than a guess (general knowledge)."""
 
 
 JOINED_SPREAD: Final = 0.2
@@ -230,7 +230,9 @@ def _possible_groupings(free: Grouping) -> Iterator[list[Grouping]]:
 
 
 def select_grouping(scene: SolvedRuns, free: Grouping, *, wanted: bool) -> tuple[Grouping, _Fit]:
-    """Grouping and fit with the most factors whose bands are narrow enough.
+    """Grouping and fit with the most factors whose bands are expected to be narrow enough.
+
+    What decides is known before the fit: bands of a grouping taken for its small differences would not hold.
 
     Raises
     ------
@@ -238,8 +240,10 @@ def select_grouping(scene: SolvedRuns, free: Grouping, *, wanted: bool) -> tuple
         No factor, or not those requested, can be fitted.
     """
     reasons = []
+    power = scene.power(Calibration())
+    slopes, sigma = _force_slopes(scene, free, [1.0] * len(free), power), scene.sigma(power)
     for ways in _possible_groupings(free):
-        judged = sorted(((_expected_width(scene, way), way) for way in ways), key=lambda pair: pair[0])
+        judged = sorted(((_expected_width(scene, way, slopes, sigma), way) for way in ways), key=lambda pair: pair[0])
         for width, way in judged:
             fewest = len(way) + scene.estimated
             if len(scene.measured) < fewest:
@@ -247,7 +251,8 @@ def select_grouping(scene: SolvedRuns, free: Grouping, *, wanted: bool) -> tuple
                 reasons.append(f"{_grouping_text(way)}: {fewest} runs at least are needed{stated}")
                 continue
             if width > WIDEST_BAND:
-                wide = f"a band wider than ±{WIDEST_BAND:g} is to be expected"
+                stated = " without a stated error" if scene.estimated else ""
+                wide = f"a band wider than ±{WIDEST_BAND:g} is to be expected{stated}"
                 reasons.append(f"{_grouping_text(way)}: the runs do not tell, {wide}")
                 continue
             fit = _fit_grouping(scene, way)
@@ -263,25 +268,59 @@ def select_grouping(scene: SolvedRuns, free: Grouping, *, wanted: bool) -> tuple
     )
 
 
-def _expected_width(scene: SolvedRuns, grouping: Grouping) -> float:
+def _expected_width(scene: SolvedRuns, grouping: Grouping, slopes: Mapping[str, Array], sigma: Array) -> float:
     """Widest half band of a grouping's factors expected before the fit [-]; infinite if they are dependent."""
-    ones = [1.0] * len(grouping)
-    power = scene.power(Calibration())
-    error = scene.sigma(power) * (TYPICAL_ERROR if scene.estimated else 1.0)
-    weighed = scene.slopes(grouping, ones, power) / error[:, None]
-    if np.linalg.matrix_rank(weighed) < len(grouping):
+    if np.linalg.matrix_rank(_group_slopes(grouping, slopes) / sigma[:, None]) < len(grouping):
         return math.inf
-    spread = np.sqrt(np.diag(np.linalg.inv(weighed.T @ weighed)))
-    return float(_normal_quantile() * spread.max())
+    reach = 1.0
+    if scene.estimated:
+        reach = TYPICAL_ERROR * _student_ratio(len(scene.measured) - len(grouping))
+    covariance = _factor_covariance(grouping, slopes, reach * sigma)
+    return float(_normal_quantile() * np.sqrt(np.diag(covariance)).max())
 
 
 def _normal_quantile() -> float:
+    """Normal quantile at the end of a 90 % band [-]."""
     return _student_quantile(10**9)
 
 
 def _student_quantile(freedom: int) -> float:
     """Student's t quantile at the end of a 90 % band [-]."""
     return float(stdtrit(freedom, 0.5 + 0.5 * BAND_COVERAGE))
+
+
+def _student_ratio(freedom: int) -> float:
+    """Student's quantile over the normal one [-]: an error from few differences, as one that is known."""
+    return _student_quantile(freedom) / _normal_quantile()
+
+
+def _force_slopes(scene: SolvedRuns, grouping: Grouping, values: Sequence[float], power: Array) -> dict[str, Array]:
+    """Derivatives of the powers with respect to the factor of each force [W]."""
+    names = [name for group in grouping for name in group]
+    at = [value for group, value in zip(grouping, values, strict=True) for _ in group]
+    return dict(zip(names, scene.slopes(tuple((name,) for name in names), at, power).T, strict=True))
+
+
+def _group_slopes(grouping: Grouping, slopes: Mapping[str, Array]) -> Array:
+    """Derivatives of the powers with respect to the group factors [W], shape (n, groups)."""
+    return np.array([np.sum([slopes[name] for name in group], axis=0) for group in grouping]).T
+
+
+def _factor_covariance(grouping: Grouping, slopes: Mapping[str, Array], sigma: Array) -> Array:
+    """Covariance of the factors from the errors of the runs [W] and the differences within joined factors.
+
+    Joined ones are means weighted by the runs: with P = Σ J_i θ_i and estimates A P, A of shape (groups, runs), a
+    difference δ_i moves the factor of another group k by A_k J_i δ_i.
+    """
+    weighed = _group_slopes(grouping, slopes) / sigma[:, None]
+    covariance = np.asarray(np.linalg.inv(weighed.T @ weighed), dtype=float)
+    solved = covariance @ (weighed / sigma[:, None]).T
+    for k, group in enumerate(grouping):
+        if len(group) > 1:
+            moved = solved @ np.array([slopes[name] for name in group]).T
+            moved[k] = 0.0
+            covariance = covariance + JOINED_SPREAD**2 * moved @ moved.T
+    return covariance
 
 
 def _fit_grouping(scene: SolvedRuns, grouping: Grouping) -> _Fit | str:
@@ -302,65 +341,48 @@ def _fit_grouping(scene: SolvedRuns, grouping: Grouping) -> _Fit | str:
     values = [float(f"{value:.{_DIGITS}g}") for value in values]
     calibration = _grouped_calibration(grouping, values)
     power = scene.power(calibration)
-    return _fit_with_bands(scene, grouping, values, power, scene.slopes(grouping, values, power))
+    return _fit_with_bands(scene, grouping, values, power)
 
 
-def _fit_with_bands(
-    scene: SolvedRuns, grouping: Grouping, values: list[float], power: Array, slopes: Array
-) -> _Fit | str:
-    """Fit with the bands of its factors, or the reason why one band is too wide."""
+def _fit_with_bands(scene: SolvedRuns, grouping: Grouping, values: list[float], power: Array) -> _Fit:
+    """Fit with the bands of its factors."""
     sigma, freedom = scene.sigma(power), len(power) - len(values)
+    weights = sigma
     chi_square = float((((scene.measured - power) / sigma) ** 2).sum())
-    error, ends, notes = scene.error, _normal_quantile(), []
+    error, reach, notes = scene.error, 1.0, []
     if scene.estimated:
         error = math.sqrt(chi_square / freedom)
-        sigma, chi_square, ends = error * sigma, float(freedom), _student_quantile(freedom)
+        reach, weights, chi_square = error * _student_ratio(freedom), error * sigma, float(freedom)
+        if reach < TYPICAL_ERROR:
+            reach = TYPICAL_ERROR
+            notes.append(
+                f"the differences are smaller than meters and belt scales let expect: the bands are those of a known "
+                f"error of {100.0 * TYPICAL_ERROR:g} % of each power; state the errors for narrower ones"
+            )
     elif freedom > 0 and chdtrc(freedom, chi_square) < POOR_FIT:
         wider = math.sqrt(chi_square / freedom)
-        sigma, ends = sigma * wider, _student_quantile(freedom)
+        reach = wider * _student_ratio(freedom)
         notes.append(
             f"the differences are {wider:.2g} times the errors stated (probability below {100.0 * POOR_FIT:.0f} %): "
             "the errors are larger, or something else than these factors differs; the bands are widened by it"
         )
-    weighed = slopes / sigma[:, None]
-    covariance = np.linalg.inv(weighed.T @ weighed)
-    covariance += _joined_covariance(scene, grouping, values, power, covariance @ (weighed / sigma[:, None]).T)
+    covariance = _factor_covariance(grouping, _force_slopes(scene, grouping, values, power), reach * sigma)
     spread = np.sqrt(np.diag(covariance))
+    half = (_normal_quantile() * spread).tolist()
     factors = tuple(
-        FittedFactor(group, value, value - ends * one, value + ends * one)
-        for group, value, one in zip(grouping, values, spread.tolist(), strict=True)
+        FittedFactor(group, value, value - ends, value + ends)
+        for group, value, ends in zip(grouping, values, half, strict=True)
     )
-    for factor in factors:
-        if factor.high - factor.value > WIDEST_BAND:
-            return f"the factor of {factor.name} has a band of ±{factor.high - factor.value:.2g}"
-    correlation = covariance / np.outer(spread, spread)
-    stated = None if scene.stated is not None else error
+    notes += [
+        f"the band of {factor.name} is wider than ±{WIDEST_BAND:g}: the differences are larger than meters and belt "
+        "scales explain; look for runs that were not steady, or give more"
+        for factor, ends in zip(factors, half, strict=True)
+        if ends > WIDEST_BAND
+    ]
     return _Fit(
-        _grouped_calibration(grouping, values), factors, correlation, power,
-        sigma if scene.estimated else scene.sigma(power),
-        chi_square, freedom, stated, tuple(notes),
+        _grouped_calibration(grouping, values), factors, covariance / np.outer(spread, spread), power,
+        weights, chi_square, freedom, None if scene.stated is not None else error, tuple(notes),
     )  # fmt: skip
-
-
-def _joined_covariance(
-    scene: SolvedRuns, grouping: Grouping, values: Sequence[float], power: Array, solved: Array
-) -> Array:
-    """Covariance of the factors from the differences within joined ones, which are means weighted by the runs.
-
-    With P = Σ J_i θ_i and estimates A P, A of shape (groups, runs), a difference δ_i moves the factor of group k by
-    A_k J_i δ_i.
-    """
-    joined = np.zeros((len(grouping), len(grouping)))
-    for k, (group, value) in enumerate(zip(grouping, values, strict=True)):
-        if len(group) > 1:
-            apart = tuple((name,) for name in group)
-            others = [g for i, g in enumerate(grouping) if i != k]
-            fixed = [v for i, v in enumerate(values) if i != k]
-            slopes = scene.slopes((*apart, *others), [*[value] * len(group), *fixed], power)[:, : len(group)]
-            moved = solved @ slopes
-            moved[k] = 0.0
-            joined += JOINED_SPREAD**2 * moved @ moved.T
-    return joined
 
 
 def _grouping_text(grouping: Grouping) -> str:
