@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import conveyor
@@ -28,7 +29,20 @@ CALLS: dict[str, Callable[[Any], object]] = {
     r"compare_compounds: compounds: expected .*, got \[3\]": lambda _: conveyor.compare_compounds(LINE, [3]),
     r"temperatures: expected .*, got 20 \(int\)": lambda _: conveyor.compare_compounds(LINE, ["s100"], temperatures=20),
     r'cover = "x": allowed are bottom, top, both': lambda _: conveyor.compare_compounds(LINE, ["s100"], cover="x"),
-    r"speed: got -5 m/s, allowed: > 0 m/s": lambda _: conveyor.compare_compounds(LINE, ["s100"], speeds=["-5 m/s"]),
+    r"temperatures\[1\]: got 283.0 without a unit": lambda _: conveyor.compare_compounds(
+        LINE, ["s100"], temperatures=["20 degC", 283.0]
+    ),
+    r"temperatures\[0\]: got 293.0 without a unit": lambda _: conveyor.compare_compounds(
+        LINE, ["s100"], temperatures=np.array([293.0, 283.0])
+    ),
+    r"temperatures\[0\]: got -400 degC, below absolute zero": lambda _: conveyor.compare_compounds(
+        LINE, ["s100"], temperatures=["-400 degC"]
+    ),
+    r"workers: got 0, allowed: a whole number from 1 to 1024": lambda _: conveyor.compare_compounds(
+        LINE, ["s100"], workers=0
+    ),
+    r"workers: got -1, allowed": lambda _: conveyor.study(SPECS.parent / "studies" / "spacing.yaml", workers=-1),
+    r"speeds\[0\]: got -5 m/s, allowed: > 0": lambda _: conveyor.compare_compounds(LINE, ["s100"], speeds=["-5 m/s"]),
     r"analyse_cases: conveyor: expected Conveyor, got 3": lambda _: conveyor.analyse_cases(3),
     r"analyse_duty: conveyor: expected Conveyor, got None": lambda _: conveyor.analyse_duty(None),
     r"compound: name_or_path: expected": lambda _: shelf.compound(3),

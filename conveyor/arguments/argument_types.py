@@ -97,7 +97,7 @@ def _is_of_type(value: Any, hint: Any) -> bool:
     """Check a value's type, as far as it can be checked."""
     origin, arguments = get_origin(hint), get_args(hint)
     if origin in {typing.Union, types.UnionType}:
-        fits = any(_is_of_type(value, one) for one in arguments)
+        fits = any(_is_of_type(value, one) for one in arguments) or _lacks_only_unit(value, arguments)
     elif origin is typing.Annotated:
         fits = _is_of_type(value, arguments[0])
     elif origin is Literal:
@@ -112,6 +112,11 @@ def _is_of_type(value: Any, hint: Any) -> bool:
         told = isinstance(hint, type) and hint is not Any and not getattr(hint, "_is_protocol", False)
         fits = isinstance(value, hint) if told else True
     return fits
+
+
+def _lacks_only_unit(value: Any, kinds: tuple[Any, ...]) -> bool:
+    """True for a plain number where a quantity is taken: the function refuses it, and says the unit."""
+    return any(getattr(kind, "__name__", "") == "Quantity" for kind in kinds) and _is_of_type(value, float)
 
 
 def _is_container_of(value: Any, origin: Any, arguments: tuple[Any, ...]) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from numbers import Integral, Real
+from typing import Final
 
 from conveyor.errors import ConveyorError, InputError, MessageQuantity
 
@@ -27,6 +28,15 @@ def require_count(least: int, **values: object) -> None:
     for name, value in values.items():
         ok = isinstance(value, Integral) and not isinstance(value, bool) and int(value) >= least
         require(ok, name, value, f"a whole number >= {least}")
+
+
+MOST_WORKERS: Final = 1024
+"""Processes, or workers of a cluster."""
+
+
+def require_workers(workers: int) -> None:
+    """Refuse a number of workers that no executor has."""
+    require(1 <= workers <= MOST_WORKERS, "workers", workers, f"a whole number from 1 to {MOST_WORKERS}")
 
 
 def require_finite(**values: float) -> None:

@@ -12,6 +12,7 @@ from typing import Final, NamedTuple, Self, TypeAlias, TypeGuard
 
 import numpy as np
 
+from conveyor.arguments.limits import require_workers
 from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.dynamics.belt_chain import Record
 from conveyor.dynamics.cut_loop import SPEEDS, CutLoop
@@ -176,6 +177,7 @@ def simulate_scenarios(
     """
     if not 0.0 < error < 1.0:
         raise InputError(f"error = {error}: between 0 and 1 is needed")
+    require_workers(workers)
     setups, given = prepare_setups(
         conveyor, tuple(scenarios or conveyor.scenarios or standard_scenarios(conveyor)), loads
     )

@@ -31,7 +31,7 @@ class LoadCase(Model):
     reversed: Switch = False
     """Whether the belt runs the other way, from head to tail; up is then what was down."""
     temperatures: Annotated[tuple[EarthTemperature, ...], Field(max_length=100)] = ()
-    """Of the belt's covers; that of ambient without."""
+    """Of the belt's covers; that of ambient without. The air keeps ambient's distance to them."""
     speeds: Annotated[tuple[BeltSpeed, ...], Field(max_length=100)] = ()
     """Of the belt; belt.speed without."""
 

@@ -308,5 +308,5 @@ class Idlers(Model):
     @property
     def drag_follows_air(self) -> bool:
         """True if the drag of a roll comes from a law, which may depend on the air temperature."""
-        rolls = [roll for each in (self.carry, self.return_) for roll in (each.roll, each.middle)]
-        return any(roll.drag is None for roll in rolls)
+        sets = [each for each in (self.carry, self.return_) if each.drag is None]
+        return any(roll.drag is None for each in sets for roll in (each.roll, each.middle))

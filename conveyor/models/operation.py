@@ -100,7 +100,7 @@ class DutyEntry(Model):
     share: Annotated[Fraction, Bounds(ge="0 %", le="200 %")]
     """Mass flow over material.flow; 0 is the empty belt."""
     temperature: EarthTemperature | None = None
-    """Of the belt's covers, where it differs from that of ambient."""
+    """Of the belt's covers, where it differs from that of ambient; the air keeps ambient's distance to it."""
     speed: BeltSpeed | None = None
     """Of the belt, where it differs."""
 

@@ -19,6 +19,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from conveyor import shelf
 from conveyor.arguments.argument_types import check_arguments
+from conveyor.arguments.limits import require_finite, require_workers
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed
@@ -33,8 +34,9 @@ from conveyor.studies.comparison_scenes import (
     Refusal,
     affected_strands,
     calculate_compound,
+    compared_scenes,
 )
-from conveyor.studies.duty import CalculatedYear, analyse_duty
+from conveyor.studies.duty import CalculatedYear, calculate_bars, sum_year
 from conveyor.studies.worker_failures import report_lost_worker
 from conveyor.units import Quantity, quantity, text
 
@@ -78,6 +80,8 @@ class CalculatedComparison:
         Price of a belt of each compound above the base's [currency of the spec].
     years : mapping
         The year of `operation.duty` with each compound whose data cover all its bars; empty without a duty.
+    bars : mapping
+        The bars of these years as scenes, each at its own load, speed and temperature.
     """
 
     conveyor: Conveyor
@@ -90,6 +94,7 @@ class CalculatedComparison:
     lots: Mapping[str, LotScatter]
     extra_costs: Mapping[str, float]
     years: Mapping[str, CalculatedYear] = field(default_factory=dict)
+    bars: Mapping[str, tuple[ComparedScene, ...]] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         name, count = self.conveyor.name, len(self.compounds)
@@ -270,10 +275,11 @@ def compare_compounds(
         raise InputError(f'cover = "{cover}": allowed are {", ".join(get_args(CoverChoice))}')
     require_rolling_contact(conveyor, "compounds are compared")
     chosen = _resolve_compounds(compounds, shelves)
+    require_workers(workers)
     at = [conveyor.ambient.belt] if temperatures is None else _read_quantities(temperatures, "temperature")
     runs = [conveyor.belt.speed] if speeds is None else _read_quantities(speeds, "speed")
-    costs = {_compound_name(name, chosen): cost for name, cost in (extra_costs or {}).items()}
     reference = chosen[0].name if base is None else _compound_name(base, chosen)
+    costs = _read_costs(extra_costs or {}, chosen, reference)
     lots = _lots_of_compounds(chosen, lot_scatter)
     job = _ComparisonJob(conveyor, tuple(map(text, at)), tuple(map(text, runs)), cover, rtol, lots)
     answers: list[_CompoundAnswer] = []
@@ -284,7 +290,7 @@ def compare_compounds(
         if progress is not None:
             progress(len(answers), len(chosen))
     studies = [answer.study for answer in answers]
-    years = zip(chosen, (answer.year for answer in answers), strict=True)
+    years = {one.name: answer.year for one, answer in zip(chosen, answers, strict=True) if answer.year is not None}
     return CalculatedComparison(
         conveyor,
         chosen,
@@ -295,15 +301,23 @@ def compare_compounds(
         tuple(one for study in studies for one in study.coverage),
         lots,
         costs,
-        {compound.name: year for compound, year in years if year is not None},
+        {name: year.calculated for name, year in years.items()},
+        {name: year.bars for name, year in years.items()},
     )
+
+
+class _ComparedYear(NamedTuple):
+    """The year of a duty with one compound, and its bars as scenes."""
+
+    calculated: CalculatedYear
+    bars: tuple[ComparedScene, ...]
 
 
 class _CompoundAnswer(NamedTuple):
     """Scenes of one compound, and its year if it has one."""
 
     study: CompoundStudy
-    year: CalculatedYear | None
+    year: _ComparedYear | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -319,6 +333,7 @@ class _ComparisonJob:
 
     def of(self, compound: RubberCompound, kept: ReuseCache) -> _CompoundAnswer:
         """Scenes and year of a compound."""
+        scatter = self.lots[compound.name].half_width
         study = calculate_compound(
             self.conveyor,
             compound,
@@ -326,10 +341,10 @@ class _ComparisonJob:
             [quantity(one, "speed") for one in self.speeds],
             cover=self.cover,
             rtol=self.rtol,
-            lot_scatter=self.lots[compound.name].half_width,
+            lot_scatter=scatter,
             kept=kept,
         )
-        return _CompoundAnswer(study, _duty_year(self.conveyor, compound, self.cover, self.rtol))
+        return _CompoundAnswer(study, _duty_year(self.conveyor, compound, self.cover, self.rtol, scatter))
 
 
 def _run_serially(job: _ComparisonJob, compounds: Sequence[RubberCompound]) -> Iterator[list[_CompoundAnswer]]:
@@ -358,19 +373,23 @@ def _run_group(job: _ComparisonJob, compounds: Sequence[RubberCompound]) -> list
     return [answer for some in _run_serially(job, compounds) for answer in some]
 
 
-def _duty_year(conveyor: Conveyor, compound: RubberCompound, cover: CoverChoice, rtol: float) -> CalculatedYear | None:
+def _duty_year(
+    conveyor: Conveyor, compound: RubberCompound, cover: CoverChoice, rtol: float, lot_scatter: float
+) -> _ComparedYear | None:
     """The year of a duty; None without a duty, or if a bar has no answer or no data."""
     if not conveyor.duty:
         return None
     changed = with_compound(conveyor, compound, cover)
     try:
-        year = analyse_duty(changed, rtol=rtol)
+        bars = calculate_bars(changed, rtol=rtol)
     except ConveyorError:
         return None  # its scenes give the reason; the report remarks that it has no year
-    strands = affected_strands(changed, cover)
+    year, strands = sum_year(changed, bars), affected_strands(changed, cover)
     bands = [(row.temperature, row.excited[strand]) for row in year.rows for strand in strands]
     asked = [Coverage(compound.name, t, band, compound.frequencies(t)) for t, band in bands if band]
-    return year if all(one.covered for one in asked) else None
+    if not all(one.covered for one in asked):
+        return None
+    return _ComparedYear(year, compared_scenes(compound, bars, strands, lot_scatter))
 
 
 def _resolve_compounds(
@@ -417,19 +436,31 @@ def _compound_name(name: str, compounds: Sequence[RubberCompound]) -> str:
     raise InputError(f'"{name}" is none of the compounds compared: {listed}')
 
 
-def _check_speed(given: Quantity) -> None:
-    """Reject a speed outside the range of the spec's field."""
-    try:
-        _SPEED.validate_python(given)
-    except ValidationError as error:
-        raise InputError(f"speed: {error.errors()[0]['msg']}") from None
+def _read_costs(given: Mapping[str, float], compounds: Sequence[RubberCompound], base: str) -> dict[str, float]:
+    """Extra cost of each compound's belt [currency]; that of the base is none by definition."""
+    costs = {_compound_name(name, compounds): float(cost) for name, cost in given.items()}
+    for name, cost in costs.items():
+        require_finite(**{f'extra_costs of "{name}"': cost})
+    if base in costs:
+        raise InputError(
+            f'extra_costs: got one for the base "{base}": they are above the price of its belt; give those of the '
+            "others, or name another base"
+        )
+    return costs
 
 
-def _read_quantities(given: Iterable[str | Quantity], kind: str) -> list[Quantity]:
-    quantities = [quantity(item, kind) for item in given]
-    if kind == "speed":
-        for item in quantities:
-            _check_speed(item)
+def _read_quantities(given: Iterable[object], kind: str) -> list[Quantity]:
+    """Temperatures or speeds, each named by its argument and place where it is refused."""
+    quantities = []
+    for place, item in enumerate(given):
+        try:
+            quantities.append(quantity(item, kind))
+            if kind == "speed":
+                _SPEED.validate_python(quantities[-1])
+        except InputError as error:
+            raise InputError(f"{kind}s[{place}]: {error}") from None
+        except ValidationError as error:
+            raise InputError(f"{kind}s[{place}]: {error.errors()[0]['msg']}") from None
     if not quantities:
         raise InputError(f"{kind}s: give at least one, or none at all for the spec's own")
     return distinct_values(quantities)

@@ -175,19 +175,32 @@ def calculate_compound(
             solved.append(answer)
         else:
             refused.append(Refusal(compound.name, setting.temperature, setting.speed, str(answer)))
-    by_temperature: dict[float, list[CalculatedConveyor]] = {}
-    for one in solved:
-        by_temperature.setdefault(one.temperature, []).append(one)
-    bands = {
-        at: tuple(_with_lots(band, lot_scatter) for band in _indentation_band(compound, at, ones, strands))
-        for at, ones in by_temperature.items()
-    }
+    by_temperature = _by_temperature(solved)
     coverage = (_frequency_coverage(compound, at, ones, strands) for at, ones in by_temperature.items())
     return CompoundStudy(
-        tuple(_compared_scene(compound.name, one, strands, bands[one.temperature]) for one in solved),
+        compared_scenes(compound, solved, strands, lot_scatter),
         tuple(refused),
         tuple(one for one in coverage if one is not None),
     )
+
+
+def compared_scenes(
+    compound: RubberCompound, results: Sequence[CalculatedConveyor], strands: frozenset[Strand], lot_scatter: float
+) -> tuple[ComparedScene, ...]:
+    """Scenes of calculated conveyors, each with the band of its compound at its own temperature."""
+    bands = {
+        at: tuple(_with_lots(band, lot_scatter) for band in _indentation_band(compound, at, ones, strands))
+        for at, ones in _by_temperature(results).items()
+    }
+    return tuple(_compared_scene(compound.name, one, strands, bands[one.temperature]) for one in results)
+
+
+def _by_temperature(results: Iterable[CalculatedConveyor]) -> dict[float, list[CalculatedConveyor]]:
+    """Results by the temperature of the belt [K]."""
+    grouped: dict[float, list[CalculatedConveyor]] = {}
+    for one in results:
+        grouped.setdefault(one.temperature, []).append(one)
+    return grouped
 
 
 def affected_strands(conveyor: Conveyor, cover: CoverChoice) -> frozenset[Strand]:

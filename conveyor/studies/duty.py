@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
@@ -14,7 +13,7 @@ from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.line.stretches import STRANDS, Strand
 from conveyor.loop.annual_energy import annual_cost
 from conveyor.loop.loop_layout import TakeUpSetting
-from conveyor.models import Conveyor, DutyEntry, LoadCase
+from conveyor.models import Conveyor, DutyEntry, LoadCase, Operation
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import ProgressCallback, calculate_many
 from conveyor.units import quantity
@@ -34,12 +33,8 @@ class DutyRow:
         Of the belt [K], [m/s].
     flow : float
         Mass flow [kg/s].
-    effective : float
-        Drive force F_U [N].
     shaft, mains : float
         Power at the motors' shafts and from the mains [W], negative when fed back.
-    indentation : mapping of str to float
-        Indentation of each strand [N].
     excited : mapping of str to tuple or None
         Frequencies that hold 90 % of the loss of each strand's cover [Hz]; None without loss.
     """
@@ -49,21 +44,14 @@ class DutyRow:
     temperature: float
     speed: float
     flow: float
-    effective: float
     shaft: float
     mains: float
-    indentation: Mapping[Strand, float]
     excited: Mapping[Strand, tuple[float, float] | None]
 
     @property
     def step(self) -> DutyStep:
         """Input to the energy laws."""
         return DutyStep(time=3600.0 * self.hours, power=self.mains, mass_flow=self.flow)
-
-    def mains_with(self, factor: float, strands: Iterable[Strand]) -> float:
-        """Power from the mains with a factor on the indentation of strands, in proportion to the drive force [W]."""
-        changed = math.fsum(self.indentation[strand] for strand in strands)
-        return self.mains * (1.0 + (factor - 1.0) * changed / self.effective) if self.effective else self.mains
 
     @property
     def energy(self) -> float:
@@ -153,22 +141,50 @@ def analyse_duty(
     >>> line = conveyor.load("examples/specs/overland_duty.yaml")  # doctest: +SKIP
     >>> conveyor.analyse_duty(line).summary  # doctest: +SKIP
     """
-    operation = conveyor.operation
-    if operation is None:
-        raise InputError("operation: missing; hours_per_year or duty say how the conveyor is used")
-    entries = operation.duty or (DutyEntry(hours=operation.hours_per_year, share=quantity("100 %")),)
+    return sum_year(conveyor, calculate_bars(conveyor, take_up, rtol, progress))
+
+
+def calculate_bars(
+    conveyor: Conveyor,
+    take_up: TakeUpSetting | None = None,
+    rtol: float | None = None,
+    progress: ProgressCallback | None = None,
+) -> tuple[CalculatedConveyor, ...]:
+    """Every bar of a conveyor's duty, as `analyse_duty`.
+
+    Raises
+    ------
+    InputError
+        There is no operation, or a bar is invalid.
+    NoSolutionError
+        A bar has no answer.
+    """
+    entries = _duty_entries(conveyor)
     variants = [_duty_variant(conveyor, i, entry) for i, entry in enumerate(entries)]
-    rows = []
+    bars = []
     answers = calculate_many([Variant(one, take_up=take_up) for one in variants], rtol, progress)
     for i, (entry, result) in enumerate(zip(entries, answers, strict=True)):
         if not isinstance(result, CalculatedConveyor):
             raise NoSolutionError(f"operation.duty[{i}] ({entry}): {result}")
-        rows.append(_duty_row(entry, result))
+        bars.append(result)
+    return tuple(bars)
+
+
+def sum_year(conveyor: Conveyor, bars: Iterable[CalculatedConveyor]) -> CalculatedYear:
+    """Year of a conveyor from the bars of its duty, calculated.
+
+    Raises
+    ------
+    InputError
+        There is no operation.
+    """
+    rows = tuple(_duty_row(entry, bar) for entry, bar in zip(_duty_entries(conveyor), bars, strict=True))
+    operation = _operation(conveyor)
     year = duty_sums([row.step for row in rows])
     price, factor, saved = operation.price, operation.emission, operation.feed_in_emission
     return CalculatedYear(
         conveyor=conveyor,
-        rows=tuple(rows),
+        rows=rows,
         year=year,
         cost=annual_cost(operation, year),
         currency=None if price is None else price.currency,
@@ -178,6 +194,19 @@ def analyse_duty(
         emission_source=operation.emission_source,
         energy_per_tonne_km=duty_specific_energy(year, length=conveyor.route.length) if year.mass > 0.0 else None,
     )
+
+
+def _operation(conveyor: Conveyor) -> Operation:
+    """Operation of a conveyor, refused where there is none."""
+    if conveyor.operation is None:
+        raise InputError("operation: missing; hours_per_year or duty say how the conveyor is used")
+    return conveyor.operation
+
+
+def _duty_entries(conveyor: Conveyor) -> tuple[DutyEntry, ...]:
+    """Bars of the duty; without one, all hours at full load."""
+    operation = _operation(conveyor)
+    return operation.duty or (DutyEntry(hours=operation.hours_per_year, share=quantity("100 %")),)
 
 
 def _duty_variant(conveyor: Conveyor, place: int, entry: DutyEntry) -> Conveyor:
@@ -202,9 +231,7 @@ def _duty_row(entry: DutyEntry, result: CalculatedConveyor) -> DutyRow:
         temperature=result.temperature,
         speed=result.line.speed,
         flow=result.line.flow,
-        effective=result.balance.forces.total,
         shaft=power.motor,
         mains=power.mains,
-        indentation=result.balance.along[0].by_strand(),
         excited={strand: result.contacts.excited_band(strand) for strand in STRANDS},
     )

@@ -23,6 +23,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Final, NamedTuple, Self, TypeAlias
 
+from conveyor.arguments.limits import require_workers
 from conveyor.errors import ConveyorError, InputError, ValidityWarning
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import field_value as field_of
@@ -389,10 +390,13 @@ def run_study(
 
     Raises
     ------
+    InputError
+        Workers outside 1 to 1024.
     ConveyorError
         A worker was lost, or answers cannot be written; what is done is kept, the same call goes on from there.
     """
     whole, every = (campaign.listed.count, campaign.listed.points()) if points is None else (len(points), points)
+    require_workers(workers)
     asked: dict[Future[list[Answer]], Batch] = {}
     new, most = (
         point_batches(campaign, known, every, whole),

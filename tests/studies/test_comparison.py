@@ -267,6 +267,8 @@ def test_softened_compounds_are_compared_softened(line):
         (["s100"], {"temperatures": ["20"]}, "20"),
         (["s100"], {"temperatures": []}, "temperatures: give at least one"),
         (["s100"], {"speeds": ["20 degC"]}, "speed"),
+        (["s100", "s120"], {"extra_costs": {"s120": np.nan}}, 'extra_costs of "S120": got nan, allowed: finite'),
+        (["s100", "s120"], {"extra_costs": {"S100": 5.0}}, 'extra_costs: got one for the base "S100"'),
         (["nope"], {}, 'unknown compound "nope"'),
     ],
 )
@@ -407,3 +409,62 @@ def test_a_duty_decides_the_year():
         alone = analyse_duty(with_compound(line, shelf.compound(name), "bottom"), rtol=RTOL)
         assert found.years[name].cost == pytest.approx(alone.cost, rel=1e-12)
         assert found.years[name].year.net_kwh == pytest.approx(alone.year.net_kwh, rel=1e-12)
+
+
+def test_the_interval_of_a_duty_is_that_of_its_bars():
+    """Whatever temperatures are compared: was taken there, and the payback with it."""
+    line, names, rows = load(SPEC), NAMES[:2], []
+    held = {key: value for key, value in line.operation.as_data().items() if key != "hours_per_year"}
+    duty = [{"hours": "3000 h", "share": "100 %"}, {"hours": "1500 h", "share": "0 %", "temperature": "0 degC"}]
+    line = line.replace(operation={**held, "duty": duty})
+    for temperatures in (["20 degC"], ["-10 degC", "30 degC"]):
+        made = compare_compounds(line, names, temperatures=temperatures, extra_costs={NAMES[1]: 9000.0})
+        (row,) = (one for one in rank_compounds(made, made.conveyor.belt_speed) if one.compound == NAMES[1])
+        rows.append(row)
+    one, other = rows
+    assert one.apart != pytest.approx(other.apart, rel=1e-3)
+    assert one.savings == pytest.approx(other.savings, rel=1e-9)
+    assert one.savings[0] < one.saving < one.savings[1]
+    assert one.paybacks == pytest.approx(other.paybacks, rel=1e-9)
+    assert one.payback == other.payback
+    assert (one.payback is None) == (one.savings[0] <= 0.0 <= one.savings[1])
+    (said,) = (said for said in comparison_notes(made) if "operation.duty" in said)
+    assert said.endswith("no payback where the saving's interval holds zero")
+
+
+def test_the_interval_of_a_duty_at_full_load_is_that_of_the_hours():
+    """One bar at full load and the temperature compared: as all hours of a year without a duty, within the contacts'
+    tolerance; the take-up for the friction to design for tightens the belt by less than a per cent of power."""
+    line = load(SPEC)
+    held = {key: value for key, value in line.operation.as_data().items() if key != "hours_per_year"}
+    barred = line.replace(operation={**held, "duty": [{"hours": line.operation.hours_per_year, "share": "100 %"}]})
+    (plain, bar) = (
+        next(row for row in rank_compounds(made, line.belt_speed) if row.compound == NAMES[1])
+        for made in (compare_compounds(each, NAMES[:2]) for each in (line, barred))
+    )
+    for mine, theirs in zip(bar.savings, plain.savings, strict=True):
+        assert mine - bar.saving == pytest.approx(theirs - plain.saving, rel=0.02)
+
+
+def test_a_cheaper_belt_pays_at_once():
+    line = load(SPEC)
+    made = compare_compounds(line, NAMES[:2], extra_costs={NAMES[1]: -100.0})
+    (row,) = (one for one in rank_compounds(made, line.belt_speed) if one.compound == NAMES[1])
+    assert (row.payback, row.paybacks) == (0.0, (0.0, 0.0))
+
+
+@pytest.mark.parametrize("drag", [None, "3 N"])
+def test_what_follows_the_temperature_is_said(line, drag):
+    idlers = line.idlers
+    if drag is not None:
+        sets = {name: getattr(idlers, name) for name in ("carry", "return_")}
+        idlers = idlers.replace(
+            **{name: one.replace(roll=one.roll.replace(drag=drag, drag_law=None)) for name, one in sets.items()}
+        )
+    made = compare_compounds(line.replace(idlers=idlers), NAMES[:1])
+    (said,) = (said for said in comparison_notes(made) if said.startswith("means over temperatures"))
+    assert said.endswith(
+        "only indentation follows the temperature"
+        if drag
+        else "indentation and the drag of rolls without a given one follow the temperature"
+    )

@@ -95,20 +95,6 @@ def test_every_bar_is_the_analysis_at_its_load_temperature_and_speed(line):
     assert row.shaft > 0.6 * study.rows[0].shaft * 4.5 / 5.0
 
 
-def test_power_with_a_factor_on_the_indentation_is_that_of_the_conveyor_calculated_with_it(line):
-    """Power is proportional to force; flexure falls at most as the tension rises: by its share of the change."""
-    factor = 1.3
-    (row,) = analyse_duty(operated(line, HOURS), rtol=RTOL).rows
-    calibrated = line.calculation.replace(calibration={"indentation": factor})
-    (again,) = analyse_duty(operated(line.replace(calculation=calibrated), HOURS), rtol=RTOL).rows
-    change = row.mains_with(factor, ("carry", "return")) - row.mains
-    assert change > 0.05 * row.mains
-    forces = calculate(line).balance.forces
-    assert change == pytest.approx(again.mains - row.mains, rel=forces.parts["flexure"] / forces.total)
-    carry = row.mains_with(factor, ("carry",)) - row.mains
-    assert carry / change == pytest.approx(row.indentation["carry"] / sum(row.indentation.values()), rel=1e-12)
-
-
 def test_the_year_is_the_sum_of_its_bars(line):
     made = operated(
         line,

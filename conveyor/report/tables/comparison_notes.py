@@ -93,14 +93,21 @@ def comparison_notes(comparison: CalculatedComparison, system: System = "SI") ->
     if fed_back and lacks_feed_in_price(comparison.conveyor.operation):
         lines.append("operation.feed_in_price not given: energy that is fed back earns nothing")
     if comparison.conveyor.duty:
-        lines.append("energy, cost and saving of a year are those of operation.duty, at the spec's own speed")
+        lines.append(
+            "energy, cost and saving of a year are those of operation.duty, at the spec's own speed, their intervals "
+            "at the loads and temperatures of its bars; no payback where the saving's interval holds zero"
+        )
         lines += [
             f'compound "{compound.name}": a bar of operation.duty has no answer with it, or its data do not reach, '
             "so it has no year"
             for compound in comparison.compounds
             if compound.name not in comparison.years
         ]
-    lines.append("means over temperatures give each the same weight; only indentation follows the temperature")
+    if comparison.conveyor.idlers.drag_follows_air:
+        follow = "indentation and the drag of rolls without a given one follow the temperature"
+    else:
+        follow = "only indentation follows the temperature"
+    lines.append(f"means over temperatures give each the same weight; {follow}")
     lines += [*_lot_notes(comparison), *_level_notes(comparison), *_scatter_notes(comparison)]
     return (*lines, *_band_notes(comparison))
 
@@ -124,10 +131,13 @@ def _tie_notes(comparison: CalculatedComparison, system: System) -> Iterator[str
         if alike:
             told = ", ".join(f'"{name}"' for name in alike)
             run = display_unit("speed", system).said(speed, 4)
-            yield (
+            said = (
                 f'{told} and the base "{comparison.base}" cannot be told apart at {run}: they differ by less than both '
-                "may be off, so neither a saving nor a payback is shown by these data"
             )
+            if comparison.conveyor.duty:
+                yield f"{said}may be off, on the mean of these temperatures"
+            else:
+                yield f"{said}may be off, so neither a saving nor a payback is shown by these data"
 
 
 def _lot_notes(comparison: CalculatedComparison) -> Iterator[str]:

@@ -7,13 +7,12 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from conveyor.laws.energy import DutySums, duty_emission, duty_sums
+from conveyor.laws.energy import DutyStep, DutySums, duty_emission, duty_sums
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.annual_energy import annual_cost
 from conveyor.report.table_model import Column, PagePlacement, Table, figure_table
 from conveyor.report.tables import what_if
 from conveyor.studies.comparison import RankedPower
-from conveyor.studies.comparison_scenes import affected_strands
 from conveyor.units.presentation import MONEY, NEVER
 
 if TYPE_CHECKING:
@@ -70,7 +69,7 @@ class RankedCompound:
     year : DutySums or None
         Energy drawn and fed back.
     dearest, cheapest : DutySums or None
-        The same at the upper and at the lower end of `apart`.
+        The same at the upper and at the lower end of the difference to the base; of a duty that of every bar.
     most, least : float or None
         Their costs [currency].
     cost, before, emission, extra : float or None
@@ -146,9 +145,15 @@ class RankedCompound:
         return self.before - self.most, self.before - self.least
 
     @property
+    def saves_clearly(self) -> bool:
+        """True if the whole interval of the saving is a saving, or a loss."""
+        least, largest = self.savings
+        return least is not None and largest is not None and not least <= 0.0 <= largest
+
+    @property
     def payback(self) -> float | None:
-        """Extra cost over saving [a]; None where either is not known, or base and compound cannot be told apart."""
-        return self._payback_of(self.saving) if self.told_apart else None
+        """Extra cost over saving [a]; None where either is not known, or the interval of the saving holds none."""
+        return self._payback_of(self.saving) if self.saves_clearly else None
 
     @property
     def paybacks(self) -> tuple[float | None, float | None]:
@@ -157,10 +162,10 @@ class RankedCompound:
         return self._payback_of(largest), self._payback_of(least)
 
     def _payback_of(self, saved: float | None) -> float | None:
-        """Payback at a saving [a]; infinite where nothing is saved."""
+        """Payback at a saving [a]; 0 for a belt that costs no more, infinite where nothing is saved."""
         if self.extra is None or saved is None:
             return None
-        return self.extra / saved if saved > 0.0 else math.inf
+        return max(self.extra, 0.0) / saved if saved > 0.0 else math.inf
 
 
 def ranking_table(comparison: CalculatedComparison) -> Table:
@@ -235,12 +240,12 @@ def _year_columns(comparison: CalculatedComparison, rows: tuple[RankedCompound, 
         extra = "[extra_cost_of_the_belt]"
 
         def payback(saved: str) -> str:
-            return f'IF({extra}="","",IF({saved}>0,{extra}/{saved},"{NEVER}"))'
+            return f'IF({extra}="","",IF({saved}>0,MAX({extra},0)/{saved},"{NEVER}"))'
 
         yield Column("extra cost of the belt", money, "extra", shown, asked=True)
         yield Column(
             "payback", "years", "payback", shown,
-            formula=lambda row: payback("[saving_per_year]") if row.saving is not None and row.told_apart else "",
+            formula=lambda row: payback("[saving_per_year]") if row.saves_clearly else "",
         )  # fmt: skip
         yield Column(
             "payback, low", "years", "paybacks.0", shown, formula=where("most", payback("[saving_per_year_high]"))
@@ -314,10 +319,8 @@ def _ranking_row(
     before = None if why else _year_energies(comparison, comparison.base, speed, base)
     apart, dearest, cheapest = None, None, None
     if why is None and name != comparison.base:
-        mine, theirs = RankedPower.of(at), RankedPower.of(base)
-        apart = comparison.difference(mine, theirs)
-        down, up = (end - (mine.motor - theirs.motor) for end in apart)
-        cheapest, dearest = (_year_energies(comparison, name, speed, at, change) for change in (down, up))
+        apart = comparison.difference(RankedPower.of(at), RankedPower.of(base))
+        cheapest, dearest = _year_ends(comparison, name, speed, at, base)
     peak = max(scenes.values(), key=lambda scene: scene.motor) if scenes else None
     return RankedCompound(
         compound=name,
@@ -368,19 +371,14 @@ def _why_not_compared(
 def _year_energies(
     comparison: CalculatedComparison, name: str, speed: float, at: list[ComparedScene], change: float = 0.0
 ) -> DutySums | None:
-    """Energies of a year: from the duty at the spec's speed if there is one, else from all hours.
+    """Energies of a year: from the duty at the spec's speed if there is one, else from all hours at the mean power.
 
-    With a change of the mean power [W]: of the indentation, by one factor in all bars.
+    Without a duty, with a change of the mean power [W].
     """
     operation = comparison.conveyor.operation
     if comparison.conveyor.duty:
         study = comparison.years.get(name) if speed == comparison.conveyor.belt_speed else None
-        rubber = math.fsum(scene.rubber for scene in at) / len(at)
-        if study is None or not change or not rubber:
-            return None if study is None else study.year
-        strands = affected_strands(study.conveyor, comparison.cover)
-        factor = 1.0 + change / rubber
-        return duty_sums([replace(row.step, power=row.mains_with(factor, strands)) for row in study.rows])
+        return None if study is None else study.year
     net = [
         scene.energy_per_year * (1.0 + change / scene.motor if scene.motor else 1.0)
         for scene in at
@@ -390,6 +388,34 @@ def _year_energies(
         return None
     drawn, fed_back = (math.fsum(max(sign * kwh, 0.0) for kwh in net) / len(net) for sign in (1.0, -1.0))
     return DutySums(operation.seconds_per_year, drawn, fed_back, 0.0)
+
+
+def _year_ends(
+    comparison: CalculatedComparison, name: str, speed: float, at: list[ComparedScene], base: list[ComparedScene]
+) -> list[DutySums | None]:
+    """Energies of a year at the lower and at the upper end of the difference to the base.
+
+    Of a duty every bar has the ends of its own difference, at its own load, speed and temperature.
+    """
+    if not comparison.conveyor.duty:
+        changes = _difference_errors(comparison, RankedPower.of(at), RankedPower.of(base))
+        return [_year_energies(comparison, name, speed, at, change) for change in changes]
+    years = [comparison.years.get(one) for one in (name, comparison.base)]
+    if speed != comparison.conveyor.belt_speed or years[0] is None or years[1] is None:
+        return [None, None]
+    steps: list[list[DutyStep]] = [[], []]
+    for row, mine, theirs in zip(years[0].rows, comparison.bars[name], comparison.bars[comparison.base], strict=True):
+        errors = _difference_errors(comparison, RankedPower.of([mine]), RankedPower.of([theirs]))
+        for end, change in zip(steps, errors, strict=True):
+            share = change / mine.motor if mine.motor else 0.0
+            end.append(replace(row.step, power=row.mains * (1.0 + share)))
+    return [duty_sums(end) for end in steps]
+
+
+def _difference_errors(comparison: CalculatedComparison, mine: RankedPower, theirs: RankedPower) -> tuple[float, float]:
+    """Ends of the 90 % interval of a difference of power, less the difference [W]."""
+    low, high = comparison.difference(mine, theirs)
+    return low - (mine.motor - theirs.motor), high - (mine.motor - theirs.motor)
 
 
 def _energy_cost(operation: Operation | None, year: DutySums | None) -> float | None:
