@@ -5,14 +5,25 @@ from __future__ import annotations
 import ast
 import inspect
 import marshal
+import operator
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache, cached_property, partial
 from hashlib import blake2b
 from itertools import pairwise
+from numbers import Integral
 from textwrap import dedent
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Self, TypeVar
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, Strict, StringConstraints, ValidationError
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    Strict,
+    StringConstraints,
+    ValidationError,
+)
 from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 from pydantic_core import InitErrorDetails, PydanticCustomError
 from pydantic_core.core_schema import ModelSchema
@@ -41,8 +52,16 @@ def _check_magnitude(value: float) -> float:
     )
 
 
+def _plain_integer(value: Any) -> Any:
+    """A whole number of another library (NumPy's) as Python's; anything else as it is."""
+    return operator.index(value) if isinstance(value, Integral) and not isinstance(value, bool) else value
+
+
+AnyInteger = BeforeValidator(_plain_integer)
+"""Of whole numbers: those of NumPy are taken too. The last of an annotation, so that limits are still in the schema."""
+
+
 Number = Annotated[float, Strict(), AfterValidator(_check_magnitude)]
-Count = Annotated[int, Strict()]
 Friction = Annotated[Number, Field(gt=0, le=2)]
 Switch = Annotated[bool, Strict()]
 Name = Annotated[str, StringConstraints(min_length=1, max_length=100, pattern=r"^\S(.*\S)?$")]

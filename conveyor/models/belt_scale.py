@@ -6,7 +6,7 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.models.base import Model, Name, Problem, Switch, raise_problems
+from conveyor.models.base import AnyInteger, Model, Name, Problem, Switch, raise_problems
 from conveyor.units import Bounds, Distance, Fraction, Length
 
 
@@ -17,7 +17,7 @@ class BeltScale(Model):
     """The section it stands in."""
     distance: Annotated[Distance, Bounds(ge="0 m", le="100 km")]
     """From the tail end of that section to the first weigh set."""
-    weigh_sets: Annotated[int, Field(ge=1, le=20, strict=True)] = 1
+    weigh_sets: Annotated[int, Field(ge=1, le=20, strict=True), AnyInteger] = 1
     """Sets on the scale, side by side."""
     alignment: Annotated[Length, Bounds(ge="0 mm", le="50 mm")] | None = None
     """Height by which the weigh sets may stand out of line with their neighbours; the error is not asked without it."""

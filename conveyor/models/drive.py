@@ -11,7 +11,7 @@ from pydantic import ConfigDict, Field, ValidationInfo, model_validator
 
 from conveyor.laws.drives import GEAR_SERVICE
 from conveyor.laws.resistance import FRICTION_FACTOR, FRICTION_FACTOR_DOWNHILL
-from conveyor.models.base import Model, Name, Number, Problem, Switch, raise_problems
+from conveyor.models.base import AnyInteger, Model, Name, Number, Problem, Switch, raise_problems
 from conveyor.models.drive_train import PRODUCT_TOLERANCE, DrivePart, train_efficiency, with_efficiency
 from conveyor.models.listed_parts import with_listed_parts
 from conveyor.models.loop_parts import Position, position_problem
@@ -77,7 +77,7 @@ class DrivePulley(Model):
     """Rated torque of the gearbox of one motor, at its slow shaft; checked with service_factor."""
     coupling_torque: Annotated[Torque, Bounds(gt="0 N*m", le="100 MN*m")] | None = None
     """Rated torque of the coupling of one motor, at the motor's shaft; checked likewise, needs motor_speed."""
-    motors: Annotated[int, Field(ge=1, le=20, strict=True)] = 1
+    motors: Annotated[int, Field(ge=1, le=20, strict=True), AnyInteger] = 1
     """How many equal motors it has."""
     motor_speed: Annotated[Rotation, Bounds(gt="0 rpm", le="5000 rpm")] | None = None
     """Rated speed of its motors, for ratio and torque of the gear."""

@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 
 from conveyor.laws.pulley import Keyway, Steel
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
-from conveyor.models.base import Model, Name, Number, Problem, raise_problems
+from conveyor.models.base import AnyInteger, Model, Name, Number, Problem, raise_problems
 from conveyor.models.library_items import LibraryItem
 from conveyor.models.maker_lists import Listed
 from conveyor.units import (
@@ -136,7 +136,7 @@ class TakeUp(Model):
     """Mass of the weight of a gravity take-up, instead of the tension."""
     reeving: Annotated[Number, Field(gt=0, le=20)] = 1.0
     """Pull on the carriage over pull of the weight or rope: 1 for a weight in the belt's loop."""
-    strands: Annotated[int, Field(ge=1, le=20, strict=True)] = LOOP_STRANDS
+    strands: Annotated[int, Field(ge=1, le=20, strict=True), AnyInteger] = LOOP_STRANDS
     """Strands that pull at the carriage, 4 where the belt goes round it twice: tension = mass g reeving/strands."""
     reserve: Annotated[Fraction, Bounds(ge="0 %", le="200 %")] = quantity(TRAVEL_RESERVE.value, "fraction")
     """Travel kept beyond what is computed, over it."""

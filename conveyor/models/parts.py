@@ -8,7 +8,7 @@ from pydantic import AfterValidator, Field, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
 from conveyor.laws.resistance import FRICTION_FACTOR, Site
-from conveyor.models.base import Model, Name, Number, Problem, raise_problems
+from conveyor.models.base import AnyInteger, Model, Name, Number, Problem, raise_problems
 from conveyor.models.belt import Belt
 from conveyor.models.calculation_methods import Calibration, Cema, Flexure, FrictionFactor, Method
 from conveyor.models.compound import RubberCompound
@@ -50,7 +50,7 @@ class Calculation(Model):
     """Moduli at the strain the rolls work the cover at, for compounds with strain sweeps."""
     anchor: Literal["tests", "off"] = "tests"
     """Level of indentation by the compounds' rolling-resistance tests, or by the theory alone (off)."""
-    gauss_points: Annotated[int, Field(ge=1, le=64, strict=True)] = 8
+    gauss_points: Annotated[int, Field(ge=1, le=64, strict=True), AnyInteger] = 8
     """Points along a roll at which the contact is solved."""
     secondary: Literal["itemised", "C"] | None = None
     """Secondary resistances one by one, or all by the length coefficient C (80 m and longer); without it C for the
@@ -128,7 +128,9 @@ def _read_version(given: int) -> int:
 class ConveyorParts(Model):
     """What a conveyor is made of, where it stands and how it is calculated."""
 
-    format_version: Annotated[int, AfterValidator(_read_version), Field(alias="conveyor", ge=1, strict=True)] = 1
+    format_version: Annotated[
+        int, AfterValidator(_read_version), Field(alias="conveyor", ge=1, strict=True), AnyInteger
+    ] = 1
     """Version of the format that the spec is written in."""
     name: Name
     """What the conveyor is called in reports."""

@@ -7,14 +7,14 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from conveyor.laws.resistance import SCRAPING_FACTOR
-from conveyor.models.base import Model, Name, Problem, raise_problems
+from conveyor.models.base import AnyInteger, Model, Name, Problem, raise_problems
 from conveyor.units import Bounds, Length, LineForce, quantity
 
 
 class Plough(Model):
     """A plough on the belt, or several alike at one place."""
 
-    count: Annotated[int, Field(ge=1, le=100, strict=True)] = 1
+    count: Annotated[int, Field(ge=1, le=100, strict=True), AnyInteger] = 1
     """Ploughs that sweep at the same time."""
     width: Annotated[Length, Bounds(gt="0 m", le="5 m")]
     """Width of the belt that is swept."""

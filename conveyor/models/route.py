@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 
 from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, BULK_ON_SKIRT_FRICTION, CLEANER_FRICTION, CLEANER_PRESSURE
 from conveyor.laws.transfer import CLEANER_EFFICIENCY
-from conveyor.models.base import Friction, Model, Name, Problem, Switch, raise_problems
+from conveyor.models.base import AnyInteger, Friction, Model, Name, Problem, Switch, raise_problems
 from conveyor.models.belt_scale import BeltScale
 from conveyor.models.calculation_methods import FlexureFactor, FrictionFactor
 from conveyor.models.hoppers import Hopper
@@ -288,7 +288,7 @@ class Cleaner(Model):
 
     kind: Literal["pre-cleaner", "primary", "secondary", "tertiary"] | None = None
     """Where it stands: before or on the face of the head pulley, behind it, behind a snub; for the report."""
-    count: Annotated[int, Field(ge=1, le=100, strict=True)] = 1
+    count: Annotated[int, Field(ge=1, le=100, strict=True), AnyInteger] = 1
     """How many alike."""
     width: Annotated[Length, Bounds(gt="0 m", le="5 m")]
     """Length of the blade across the belt."""

@@ -14,7 +14,7 @@ from conveyor.laws.drives import GEAR_SERVICE
 from conveyor.laws.idler_sets import CemaClass
 from conveyor.laws.preliminary_sizing import Severity
 from conveyor.laws.resistance import Site
-from conveyor.models.base import Model, Name, Number, Problem, raise_problems
+from conveyor.models.base import AnyInteger, Model, Name, Number, Problem, raise_problems
 from conveyor.models.calculation_methods import Method
 from conveyor.models.compound import CompoundReference
 from conveyor.models.material import BulkMaterial
@@ -186,7 +186,7 @@ class SiteRules(Model):
     """Places of the drives to choose from."""
     largest_motor: Annotated[Power, Bounds(gt="0 kW", le="1 MW")] = quantity("1000 kW")
     """Largest motor; the series ends at 1 MW."""
-    motors_per_pulley: Annotated[int, Field(ge=1, le=2, strict=True)] = 2
+    motors_per_pulley: Annotated[int, Field(ge=1, le=2, strict=True), AnyInteger] = 2
     """Motors that a drive pulley may have: one, or one at either end of its shaft."""
     wrap_angle: Annotated[Angle, Bounds(gt="90 deg", le="270 deg")] = quantity("210 deg")
     """Of a drive pulley."""

@@ -13,7 +13,7 @@ from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from conveyor.errors import InputError, PlanError
-from conveyor.models.base import Model, Name, Problem, raise_problems
+from conveyor.models.base import AnyInteger, Model, Name, Problem, raise_problems
 from conveyor.models.conveyor import Conveyor
 from conveyor.models.fields import check_field_path
 from conveyor.models.operation import PRICE_PATTERN
@@ -158,9 +158,9 @@ class Samples(Model):
 
     method: Literal["latin hypercube", "sobol"] = "sobol"
     """How points are spread; of Sobol's sequence a power of 2 is balanced."""
-    count: Annotated[int, Field(ge=1, le=MOST_SAMPLES)]
+    count: Annotated[int, Field(ge=1, le=MOST_SAMPLES), AnyInteger]
     """Points."""
-    seed: Annotated[int, Field(ge=0, le=2**32 - 1)] = 0
+    seed: Annotated[int, Field(ge=0, le=2**32 - 1), AnyInteger] = 0
     """Of the random numbers: the same seed draws the same points."""
     fields: Annotated[dict[str, SampledRange], Field(min_length=1)]
     """Range of each field, by path."""
@@ -416,11 +416,11 @@ class SearchPlan(VariedSpec):
 
     ranges: Annotated[dict[str, SampledRange], Field(default_factory=dict)]
     """Between what a field is searched, by path, in steps of a thousandth."""
-    population: Annotated[int, Field(ge=2, le=100)] = 8
+    population: Annotated[int, Field(ge=2, le=100), AnyInteger] = 8
     """Designs of a generation for each field that varies."""
-    generations: Annotated[int, Field(ge=1, le=10_000)] = 40
+    generations: Annotated[int, Field(ge=1, le=10_000), AnyInteger] = 40
     """At most."""
-    seed: Annotated[int, Field(ge=0, le=2**32 - 1)] = 0
+    seed: Annotated[int, Field(ge=0, le=2**32 - 1), AnyInteger] = 0
     """Of the random numbers: the same seed tries the same designs."""
 
     @property

@@ -6,7 +6,7 @@ from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.models.base import Model, Problem, Switch, raise_problems
+from conveyor.models.base import AnyInteger, Model, Problem, Switch, raise_problems
 from conveyor.units import Bounds, Fraction, Quantity, TemperatureDifference, si, text
 
 HalfWidth = Annotated[Fraction, Bounds(gt="0 %", lt="100 %")]
@@ -57,9 +57,9 @@ class Uncertainty(Model):
     rubber: Switch = False
     """Whether the compounds' replicas (bootstrap of their fits) and the band of their tests are calculated."""
 
-    draws: Annotated[int, Field(ge=0, le=100_000)] = 0
+    draws: Annotated[int, Field(ge=0, le=100_000), AnyInteger] = 0
     """Draws of all inputs together, each calculated in full (Monte Carlo); none without."""
-    seed: Annotated[int, Field(ge=0, le=2**32 - 1)] = 0
+    seed: Annotated[int, Field(ge=0, le=2**32 - 1), AnyInteger] = 0
     """Of the draws: the same seed draws the same."""
     correlations: tuple[Correlation, ...] = ()
     """Inputs that the draws take as correlated."""

@@ -33,6 +33,8 @@ class DutyRow:
         Of the belt [K], [m/s].
     flow : float
         Mass flow [kg/s].
+    effective : float
+        Drive force F_U [N].
     shaft, mains : float
         Power at the motors' shafts and from the mains [W], negative when fed back.
     excited : mapping of str to tuple or None
@@ -44,6 +46,7 @@ class DutyRow:
     temperature: float
     speed: float
     flow: float
+    effective: float
     shaft: float
     mains: float
     excited: Mapping[Strand, tuple[float, float] | None]
@@ -231,6 +234,7 @@ def _duty_row(entry: DutyEntry, result: CalculatedConveyor) -> DutyRow:
         temperature=result.temperature,
         speed=result.line.speed,
         flow=result.line.flow,
+        effective=result.balance.forces.total,
         shaft=power.motor,
         mains=power.mains,
         excited={strand: result.contacts.excited_band(strand) for strand in STRANDS},

@@ -6,9 +6,11 @@ import copy
 import json
 import pickle
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Annotated, Any
 
+import numpy as np
 import pytest
+from pydantic import TypeAdapter, ValidationError
 
 import conveyor
 from conveyor.errors import InputError, SpecError
@@ -137,3 +139,38 @@ def test_plain_numbers_are_strict_and_bounded(conveyor_data: dict[str, Any], val
     conveyor_data["drive"]["friction"] = value
     with pytest.raises(SpecError, match=r"drive\.friction"):
         Conveyor.model_validate(conveyor_data)
+
+
+def every_model(of: type[Model] = Model) -> Iterator[type[Model]]:
+    for one in of.__subclasses__():
+        if one.__module__.startswith("conveyor."):
+            yield one
+        yield from every_model(one)
+
+
+WHOLE = [
+    (one, name)
+    for one in dict.fromkeys(every_model())
+    for name, field in one.model_fields.items()
+    if field.annotation is int
+]
+
+
+@pytest.mark.parametrize(("model", "name"), WHOLE)
+def test_whole_numbers_of_numpy_are_taken(model: type[Model], name: str):
+    """As Python's; a truth value is no number."""
+    field = model.model_fields[name]
+    read = TypeAdapter(Annotated[field.annotation, *field.metadata])
+    taken = read.validate_python(np.int64(1 if name != "population" else 2))
+    assert type(taken) is int
+    with pytest.raises(ValidationError):
+        read.validate_python(np.int64(-1))
+    with pytest.raises(ValidationError):
+        read.validate_python(2.5)
+    if any(getattr(each, "strict", False) for each in field.metadata):
+        with pytest.raises(ValidationError):
+            read.validate_python(True)
+
+
+def test_there_are_whole_numbers():
+    assert {"motors", "gauss_points", "format_version", "seed"} <= {name for _, name in WHOLE}
