@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import accumulate
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -54,7 +55,8 @@ if TYPE_CHECKING:
 
 
 _SUMS = ("main", "secondary", "special", "lift", "total")
-_BAR_HEIGHT = 0.8  # of the distance of two rows
+_BAR_INCHES, _BAR_GAP = 0.17, 0.6  # height of a bar, which its number needs; between rows, of a bar
+_ABOUT_BARS = 1.3  # height of the title, the axis and the legend [in]
 _HATCH = ("", "////", "\\\\\\\\")
 _BAND, _BAND_LINES = (0.5, 0.5, 0.5, 0.15), (0.3, 0.3, 0.3, 0.45)
 _POINTS = 300
@@ -67,30 +69,28 @@ _TORNADO_INPUTS = 12  # inputs drawn, those that matter most
 def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
     """Bars of every resistance [kN, lbf], and the classical estimates of their sums; numbers at the bars."""
     force = display_unit("force", system, large=True)
-    figure, (axis,) = stacked_axes(1, 4.4)
     estimates: list[tuple[str, ClassicalEstimate]] = [
         (f"ISO 5048 / DIN 22101, f = {balance.classical.friction_factor:.4g}", balance.classical)
     ]
     if balance.cema is not None:
         estimates.append(("CEMA classic, given Ky", balance.cema))
     parts = [name for name in balance.forces.parts if name not in _SUMS]
-    names = [*parts, *_SUMS]
-    width = _BAR_HEIGHT / (1 + len(estimates))
+    names, first_sum = [*parts, *_SUMS], len(parts)
+    bars = [1] * first_sum + [1 + len(estimates)] * len(_SUMS)
+    tops = list(accumulate((count + _BAR_GAP for count in bars), initial=0.0))
+    figure, (axis,) = stacked_axes(1, _ABOUT_BARS + _BAR_INCHES * tops[-1])
     sums_here = balance.forces
     forces = force([*(sums_here.parts[name] for name in parts), *(getattr(sums_here, name) for name in _SUMS)])
-    columns = [("this calculation", list(range(len(names))), forces)]
-    sums = list(range(len(parts), len(names)))
-    columns += [(label, sums, force([getattr(made, name) for name in _SUMS])) for label, made in estimates]
-    for k, (label, rows, values) in enumerate(columns):
-        at = [row + (width * k if row in sums else 0.0) for row in rows]
-        bars = axis.barh(at, values, height=width, label=label, **_bar_style(k))
-        axis.bar_label(bars, fmt="{:,.1f}" if system == "SI" else "{:,.0f}", padding=3, fontsize=9)
-    middle = 0.5 * width * len(estimates)
-    axis.set_yticks(
-        [row + (middle if row in sums else 0.0) for row in range(len(names))],
-        [_resistance_label(name) for name in names],
-    )
-    axis.axhline(len(parts) - 0.5, color="0.75", linewidth=0.8)
+    columns = [("this calculation", tops[:-1], forces)]
+    columns += [
+        (label, tops[first_sum:-1], force([getattr(made, name) for name in _SUMS])) for label, made in estimates
+    ]
+    for k, (label, at, values) in enumerate(columns):
+        drawn = axis.barh([top + k for top in at], values, height=1.0, label=label, **_bar_style(k))
+        axis.bar_label(drawn, fmt="{:,.1f}" if system == "SI" else "{:,.0f}", padding=3, fontsize=9)
+    middles = [top + 0.5 * (count - 1) for top, count in zip(tops, bars, strict=False)]
+    axis.set_yticks(middles, [_resistance_label(name) for name in names])
+    axis.axhline(tops[first_sum] - 0.5 * (1.0 + _BAR_GAP), color="0.75", linewidth=0.8)
     axis.axvline(0.0, color="0.3", linewidth=0.8)
     axis.invert_yaxis()
     axis.margins(x=0.12)
