@@ -170,7 +170,7 @@ def build_workbook(
             set_up_print(page.sheet, header, paper=about.paper, starts=page.print_only())
     if front:  # its charts refer to tables of the other sheets
         summary_sheet.write_summary(SheetWriter(first, contents, stem), placed)
-        set_up_print(first, header, paper=about.paper)
+        set_up_print(first, header, paper=about.paper, fitted=True)
     if words is not None:
         translate_sheets(book, words)
     return book

@@ -56,7 +56,9 @@ def columns_of_text(sheet: Worksheet, columns: range) -> range:
     return columns
 
 
-def set_up_print(sheet: Worksheet, name: str, *, paper: str = "A4", starts: Sequence[int] = (1,)) -> None:
+def set_up_print(
+    sheet: Worksheet, name: str, *, paper: str = "A4", starts: Sequence[int] = (1,), fitted: bool = False
+) -> None:
     """Set up printing with letters of at least 8 pt, with the project's name as header.
 
     A sheet is printed upright where its width allows it, else across, on one page where it fits. A wider one is parted
@@ -72,6 +74,8 @@ def set_up_print(sheet: Worksheet, name: str, *, paper: str = "A4", starts: Sequ
         Size of the paper.
     starts : sequence of int
         First columns of the tables that stand beside each other.
+    fitted : bool
+        Whether columns on one page stay on it in any font, even if a program then takes no notice of breaks.
     """
     _, _, last_column, last_row = range_boundaries(sheet.print_area.split("!")[-1] or sheet.dimensions)
     columns, rows = range(1, int(last_column or 1) + 1), range(1, int(last_row or 1) + 1)
@@ -82,7 +86,8 @@ def set_up_print(sheet: Worksheet, name: str, *, paper: str = "A4", starts: Sequ
     height = page_room(paper, portrait=portrait)[1]
     for row in _cut_charts(sheet, height):
         sheet.row_breaks.append(Break(id=row - 1))
-    if parts[portrait] or sheet.row_breaks.brk:  # a sheet that is fitted to pages knows no breaks
+    parted = bool(sheet.row_breaks.brk)
+    if parts[portrait] or (parted and not fitted):  # Excel takes no notice of breaks where pages are fitted
         sheet.page_setup.scale = round(100.0 * _SCALE)
         for last in parts[portrait]:
             sheet.col_breaks.append(Break(id=last))
@@ -90,7 +95,7 @@ def set_up_print(sheet: Worksheet, name: str, *, paper: str = "A4", starts: Sequ
             sheet.print_title_cols = "A:A"
     else:
         sheet.page_setup.fitToWidth = 1
-        sheet.page_setup.fitToHeight = int(rows_height(sheet, rows) <= height)  # 0: as many as it takes
+        sheet.page_setup.fitToHeight = int(not parted and rows_height(sheet, rows) <= height)  # 0: as many as it takes
         sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
     margins = sheet.page_margins
     margins.left = margins.right = _SIDE

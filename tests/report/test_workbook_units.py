@@ -172,8 +172,11 @@ def test_cover_is_one_page_with_the_checks_on_it_or_behind_it(pair):
         if sheet.row_breaks.brk:
             last = checks - 1
             assert [one.id for one in sheet.row_breaks.brk] == [last]
+            assert sheet.page_setup.fitToHeight == 0
         else:
-            assert sheet.page_setup.fitToWidth == sheet.page_setup.fitToHeight == 1
+            assert sheet.page_setup.fitToHeight == 1
+        assert sheet.page_setup.fitToWidth == 1  # in any font
+        assert sheet.sheet_properties.pageSetUpPr.fitToPage
         heights = (sheet.row_dimensions[row].height or 15.0 for row in range(1, last + 1))
         assert sum(heights) < 925.0  # 673 pt of paper of the US, letters of 8 pt for 11
 
