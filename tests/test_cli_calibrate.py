@@ -45,10 +45,15 @@ def test_calibrate_shows_factors_runs_and_what_to_know(tmp_path: Path) -> None:
     ):
         assert words in done.stdout
     fragment = (tmp_path / "found.yaml").read_text(encoding="utf-8")
-    assert fragment.rstrip() in done.stdout
+    mark, _, lines = fragment.partition("\n")
+    assert mark.startswith("# Written by conveyor calibrate (")
+    assert lines.rstrip() in done.stdout
     again = run("calibrate", OVERLAND, "--measured", RUNS, "-o", "found.yaml", "-q", cwd=tmp_path)
-    assert again.returncode == 2
-    assert "found.yaml: exists; choose another name, or replace it with --force" in again.stderr
+    assert again.returncode == 0, again.stderr  # as a report is
+    (tmp_path / "found.yaml").write_text(fragment.replace("source", "# source"), encoding="utf-8")
+    edited = run("calibrate", OVERLAND, "--measured", RUNS, "-o", "found.yaml", "-q", cwd=tmp_path)
+    assert edited.returncode == 2
+    assert "found.yaml: exists and is no unedited part of a spec that conveyor wrote; choose another" in edited.stderr
 
 
 def test_calibrate_writes_every_table(tmp_path: Path) -> None:

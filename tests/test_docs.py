@@ -48,13 +48,20 @@ def named(page: Path) -> str:
     return "materials" if page.parent.name == "materials" else page.stem
 
 
-@pytest.fixture
-def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder that looks like a checkout and may be written to."""
+@pytest.fixture(scope="module")
+def folder_of_pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder that looks like a checkout, in which a reader follows one page after the other."""
+    there = tmp_path_factory.mktemp("checkout")
     for folder in ("examples", "materials", "tests"):
-        (tmp_path / folder).symlink_to(ROOT / folder)
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
+        (there / folder).symlink_to(ROOT / folder)
+    return there
+
+
+@pytest.fixture
+def checkout(folder_of_pages: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of all pages, as the current one."""
+    monkeypatch.chdir(folder_of_pages)
+    return folder_of_pages
 
 
 def same(printed: str, expected: str) -> None:

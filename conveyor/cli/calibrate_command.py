@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 from conveyor.cli.application import Spec, option, print_lines, si_of
 from conveyor.cli.output_files import SPEC
 from conveyor.cli.shared_options import Session, session_command
+from conveyor.files import output_marks
 
 if TYPE_CHECKING:
     from conveyor.results.comparisons import CalibrationStudy
@@ -62,7 +63,7 @@ def calibrate(
 ) -> None:
     """Fit factors on indentation, idler rotation and flexure to measured power, as far as the runs tell them apart."""
     to = session.outputs(spec, measured)
-    parts = to.reports(output, *SPEC)
+    parts = to.reports(output, *SPEC, kind=output_marks.FACTORS)
     import conveyor
 
     line = session.read(spec)
@@ -72,7 +73,7 @@ def calibrate(
         calibration = conveyor.calibrate(line, measured, error=share, factors=factors, progress=told)
     to.write(calibration.contents(system))
     for path in parts:
-        to.add("part of a spec", path, {path: calibration.fragment.encode()})
+        to.add("part of a spec", path, {path: output_marks.mark_unedited(calibration.fragment, "calibrate")})
     session.answer(calibration.to_dict, to, lambda: _show_calibration(calibration, system))
 
 

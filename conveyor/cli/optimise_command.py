@@ -11,6 +11,7 @@ from conveyor.cli.output_files import SPEC
 from conveyor.cli.shared_options import Session, session_command
 from conveyor.cli.study_command import describe_design, design_spec
 from conveyor.cli.worker_processes import Scheduler, Workers, open_executor, preload_workers
+from conveyor.files import output_marks
 
 if TYPE_CHECKING:
     from conveyor.studies.design_figures import Design
@@ -46,7 +47,7 @@ def optimise(
     with name_plan_file(plan_file):
         campaign = ParametricStudy.of(plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent))
     to = session.outputs(plan_file, spec)
-    to.file("--output", output, *SPEC)
+    to.file("--output", output, *SPEC, kind=output_marks.DESIGN)
     with ExitStack() as stack:
         known = stack.enter_context(ResultStore(output.with_name(f"{output.name}.answers")))
         before = len(known)
@@ -65,7 +66,7 @@ def optimise(
         searched = search(campaign, known, executor=executor, workers=workers, progress=tell)
         new = len(known) - before
     figures = describe_design(searched.design, campaign, system)
-    to.add("spec", output, {output: design_spec(campaign, searched.design, figures)})
+    to.add("spec", output, {output: design_spec(campaign, searched.design, figures, "optimise")})
     plain = {
         "changes": dict(searched.design.changes),
         "figures_SI": dict(searched.design.figures),

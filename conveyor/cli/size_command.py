@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from conveyor.cli.application import AsParquet, TablesFolder, argument, option
 from conveyor.cli.output_files import PICTURE, SPEC
 from conveyor.cli.shared_options import Session, session_command
+from conveyor.files import output_marks
 
 if TYPE_CHECKING:
     from conveyor.cli.output_files import Outputs
@@ -54,7 +55,7 @@ def size(
     to = session.outputs(duty)
     for path in specs:
         for each in _ranked_paths(path, best):
-            to.file("--output", each, *SPEC)
+            to.file("--output", each, *SPEC, kind=output_marks.DESIGN)
     pictures = to.reports(
         [path for path in output or () if path not in specs], *PICTURE, *SPEC, tables=tables, parquet=parquet
     )
@@ -89,5 +90,5 @@ def _write_specs(sizing: CalculatedSizing, path: Path, to: Outputs, shelves: Ite
     for rank, (name, design) in enumerate(
         zip(_ranked_paths(path, len(sizing.designs)), sizing.designs, strict=True), start=1
     ):
-        text = f"# Rank {rank} of conveyor size.\n{dump_given(design.conveyor, shelves=shelves)}"
-        to.add("spec", name, {name: text.encode()})
+        text = f"# Rank {rank}.\n{dump_given(design.conveyor, shelves=shelves)}"
+        to.add("spec", name, {name: output_marks.mark_unedited(text, "size")})

@@ -155,7 +155,10 @@ def _write_study_files(
     if specs is not None:
         ranked = enumerate(study.best, start=1)
         made = {specs / f"{rank:02}_design_{one.number}.yaml": one for rank, one in ranked}
-        told = {path: design_spec(campaign, one, describe_design(one, campaign, system)) for path, one in made.items()}
+        told = {
+            path: design_spec(campaign, one, describe_design(one, campaign, system), "study")
+            for path, one in made.items()
+        }
         to.add("specs", specs, told)
     return contents
 
@@ -173,15 +176,15 @@ def show_best(contents: Contents, deciding: Set[str]) -> None:
         show_notes(terminal_console(), [row.text for row in contents["remarks"].rows])
 
 
-def design_spec(campaign: ParametricStudy, design: Design, figures: str) -> bytes:
-    """Design as a spec for `conveyor power`, with its figures in the heading."""
+def design_spec(campaign: ParametricStudy, design: Design, figures: str, command: str) -> bytes:
+    """Design as a spec for `conveyor power`, with its figures in the heading, marked as written by a command."""
     from conveyor.models.fields import with_fields
     from conveyor.spec import dump
 
     line = with_fields(campaign.base, design.changes, resolve=campaign.compounds.__getitem__)
     changes = [f"#   {path}: {value}\n" for path, value in design.changes.items()]
     heading = [f'# Design {design.number} of the study "{campaign.plan.name}": {figures}\n']
-    return escape_controls("".join([*heading, *changes, dump(line)])).encode()
+    return output_marks.mark_unedited(escape_controls("".join([*heading, *changes, dump(line)])), command)
 
 
 def describe_design(design: Design, campaign: ParametricStudy, system: System) -> str:

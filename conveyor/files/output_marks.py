@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 import sys
 import zipfile
@@ -17,6 +18,8 @@ FIGURE: Final = "figure"
 COMPOUND: Final = "compound file"
 TABLE: Final = "table"
 STUDY: Final = "table: of a study"
+DESIGN: Final = "unedited design"
+FACTORS: Final = "unedited part of a spec"
 NO_ANSWER_COLUMN: Final = "no answer because"
 """Heading of the last column of a table of a study."""
 TO_FILL_IN: Final = "file to fill in"
@@ -32,6 +35,8 @@ PARQUET: Final = "written by conveyor"
 _BOM: Final = b"\xef\xbb\xbf"
 _UNIT: Final = re.compile(r" ?\[[^\]]*\]")
 _PDF_MARK: Final = re.compile(rb"/Keywords ?\(conveyor ")
+_UNEDITED: Final = "# Written by conveyor {} ({}); a later run replaces it unless it was edited.\n"
+_UNEDITED_KINDS: Final = {"size": DESIGN, "study": DESIGN, "optimise": DESIGN, "calibrate": FACTORS}
 _LARGEST_PROPERTIES: Final = 20_000
 _HEAD: Final = 4_000
 
@@ -48,6 +53,21 @@ def package_version(package: str) -> str:
 def program_version() -> str:
     """Program name and version that outputs are marked with."""
     return f"conveyor {package_version('conveyor')}"
+
+
+def mark_unedited(text: str, command: str) -> bytes:
+    r"""Encode a spec or a part of one below a line that tells whether it was edited since a command wrote it.
+
+    Examples
+    --------
+    >>> written = mark_unedited("name: mine\n", "size")
+    >>> output_kind(written)
+    'unedited design'
+    >>> output_kind(written.replace(b"mine", b"ours")) is None
+    True
+    """
+    digest = hashlib.sha256(text.encode()).hexdigest()[:12]
+    return f"{_UNEDITED.format(command, digest)}{text}".encode()
 
 
 def output_kind(content: bytes) -> str | None:
@@ -85,13 +105,21 @@ def output_kind(content: bytes) -> str | None:
         or (head.startswith(b"%PDF") and b"/Creator (conveyor " in content),
         TABLE: content.startswith(b"PAR1") and PARQUET.encode() in content,
     }
-    kind_there = next((kind for kind, known in signs.items() if known), None)
+    kind_there = next((kind for kind, known in signs.items() if known), None) or _unedited_kind(content)
     if kind_there is None and content.startswith(_BOM):
         headings = content.partition(b"\r\n")[0].decode("utf-8-sig", "replace")
         if headings.startswith(("point,", "design,")) and headings.endswith(f",{NO_ANSWER_COLUMN}"):
             return STUDY
         return f"{TABLE}: {_UNIT.sub('', headings)}"
     return kind_there
+
+
+def _unedited_kind(content: bytes) -> str | None:
+    """Kind of a spec, or of a part of one, that is as a command wrote it."""
+    if not content.startswith(b"# Written by conveyor "):
+        return None
+    text = content.partition(b"\n")[2].decode("utf-8", "replace")
+    return next((kind for name, kind in _UNEDITED_KINDS.items() if mark_unedited(text, name) == content), None)
 
 
 def _is_report(content: bytes) -> bool:

@@ -114,5 +114,5 @@ def test_the_command_writes_a_spec_that_power_reads(tmp_path):
     found = json.loads(done.stdout)
     power = json.loads(command("power", tmp_path / "best.yaml", "--json").stdout)["power_kW"]["motor"]
     assert 1e3 * power == pytest.approx(found["figures_SI"]["motor_power"], rel=2e-4)
-    again = command("optimise", file, "-o", tmp_path / "best.yaml", "--json", "--force")
+    again = command("optimise", file, "-o", tmp_path / "best.yaml", "--json")  # it replaces its own spec
     assert json.loads(again.stdout) == found | {"calculated": 0}
