@@ -158,7 +158,13 @@ LanguageOption = Annotated[
     ),
 ]
 Force = Annotated[
-    bool, option("Overwrite existing output files; input files are never overwritten.", None, "--force", "-f")
+    bool,
+    option(
+        "Replace any existing file; without it only what conveyor wrote, unedited. Input files are never overwritten.",
+        None,
+        "--force",
+        "-f",
+    ),
 ]
 Quiet = Annotated[bool, option("Print nothing but errors.", None, "--quiet", "-q")]
 Drawing = "to this file (.png, .svg, .pdf)."

@@ -47,7 +47,7 @@ def write_tables(contents: Contents, folder: Path, kind: FileKind = "csv") -> tu
     if kind not in _KINDS:
         raise InputError(f'kind = "{kind}": csv or parquet')
     if kind == "parquet" and find_spec("pyarrow") is None:
-        raise InputError("Parquet needs the package pyarrow: pip install pyarrow; or write CSV")
+        raise InputError('Parquet needs the package pyarrow: pip install "conveyor[parquet]"; or write CSV')
     try:
         there = folder.is_dir()
     except OSError as error:

@@ -78,7 +78,7 @@ def test_what_a_user_types_is_safe_in_every_file(result, tmp_path):
 
 def test_parquet_without_its_package_says_how_to_get_it(result, tmp_path, monkeypatch):
     monkeypatch.setattr("conveyor.report.table_files.find_spec", lambda _: None)
-    with pytest.raises(InputError, match="Parquet needs the package pyarrow: pip install pyarrow"):
+    with pytest.raises(InputError, match=r'pip install "conveyor\[parquet\]"; or write CSV'):
         result.to_tables(tmp_path, kind="parquet")
     assert list(tmp_path.iterdir()) == []
 
