@@ -26,7 +26,7 @@ from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Figure, T
 from conveyor.report.tables.analysis_contents import TABLES, AnalysisTables, analysis_drawings
 from conveyor.text.markup import Html, element, join_html
 from conveyor.units import System
-from conveyor.units.presentation import display_unit
+from conveyor.units.presentation import Unit, display_unit
 
 _VERDICTS: Final = ("FAIL", "not checked", "pass")
 """Verdicts of checks, the gravest first."""
@@ -39,8 +39,17 @@ _FIGURE: Final = "figure "
 _ALIKE: Final = 5e-5
 """Relative difference below which two figures are written as alike [-]; reports have four digits."""
 _NOT_COMPARED: Final = {"contact_error_estimate", "contact_energy_error"}
-_LARGE: Final = {"power", "force", "mass", "length"}
-"""Kinds that are written in their large unit beside each other."""
+_FORCE_DIGITS: Final = ",.2f"
+"""Digits of forces in kN beside each other: misalignment is a fraction of one."""
+
+
+class _ComparedFigure(Figure):
+    """A figure of two variants beside each other, forces in their large unit."""
+
+    def unit(self, system: System) -> Unit:
+        """Unit and digits of the figure in a system."""
+        own, large = super().unit(system), display_unit(self.kind, system, large=True)
+        return replace(large, digits=_FORCE_DIGITS) if self.kind == "force" and large != own else own
 
 
 class NamedAssessment(NamedTuple):
@@ -244,7 +253,7 @@ def compared_part(first: NamedAssessment, second: NamedAssessment) -> Html:
 
 def _compared_figures(first: NamedAssessment, second: NamedAssessment) -> tuple[Table, int]:
     """Figures that differ, and how many do not."""
-    rows, alike = [], 0
+    rows, alike, above = list[Figure](), 0, set[tuple[str, str, str]]()
     for key in ("results", "take_up"):
         others = {row.key: row for row in second.tables[key].rows} if key in second.tables else {}
         for row in first.tables[key].rows if key in first.tables else ():
@@ -257,9 +266,13 @@ def _compared_figures(first: NamedAssessment, second: NamedAssessment) -> tuple[
             if abs(two - one) <= _ALIKE * max(abs(one), abs(two)):
                 alike += 1
                 continue
+            pair = row.kind, f"{one:.5g}", f"{two:.5g}"
+            if pair in above:  # as the mains power of a drive without losses, or the setting that is required
+                continue
+            above.add(pair)
             change = None if one == 0.0 else (two - one) / abs(one)
             label = f"take-up, {row.label}" if key == "take_up" else row.label
-            rows.append(replace(row, label=label, value=(one, two, two - one, change)))
+            rows.append(_ComparedFigure(label, row.kind, (one, two, two - one, change), key=row.key))
     columns = (
         Column("figure", FIGURE_NAME, "label"),
         Column(first.name, ROW_KIND, "value.0", key="first"),

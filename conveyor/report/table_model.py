@@ -303,10 +303,10 @@ class Table:
 
     def unit(self, column: Column, row: Any, system: System) -> Unit:
         """Unit and digits of a cell."""
-        return display_unit(
-            row.kind if column.kind == ROW_KIND else "text" if column.kind == FIGURE_NAME else column.kind,
-            system,
-        )
+        if column.kind == ROW_KIND:
+            unit: Unit = row.unit(system)
+            return unit
+        return display_unit("text" if column.kind == FIGURE_NAME else column.kind, system)
 
     def cells(self, column: Column, system: System) -> list[Any]:
         """Values of a column in a system: numbers, text, None."""

@@ -294,6 +294,11 @@ def test_a_second_variant_is_compared(client):
     one = ask(client, "/result", file="overland.yaml", changes={}).json()["power_kW"]["motor"]
     two = ask(client, "/result", file="overland.yaml", changes={"belt.speed": "4 m/s"}).json()["power_kW"]["motor"]
     assert f"{two - one:,.1f}" in got["compared"]
+    assert "[kN]" in got["compared"]
+    assert "[N]" not in got["compared"]
+    lines = re.findall(r"<tr>.*?</tr>", got["compared"])
+    numbers = [tuple(re.findall(r">([^<]*)</td>", line)) for line in lines if "[kN]" in line]
+    assert len(numbers) == len(set(numbers)) > 5  # no force twice
 
 
 def test_a_refusal_names_its_field_and_the_desk_goes_on(client):
