@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from copy import copy
 from dataclasses import dataclass
 from datetime import date
 from textwrap import wrap
+from types import MappingProxyType
 from typing import Any
 
 from openpyxl.cell.cell import Cell, MergedCell
@@ -59,6 +60,7 @@ _UNSAFE = ("=", "+", "-", "@", "\t", "\r", "\n")
 CELL_CHARACTERS = 32_767
 """Characters a cell can hold (Excel specifications and limits)."""
 _NARROWEST, _WIDEST = 10, 60
+_ALL_ALIKE = MappingProxyType[str, int]({})
 _LETTERS_PER_DIGIT = 1.1  # characters of text on the width of one digit
 _BOLD_WIDTH = 1.1  # of the width of plain text
 _ROW_HEIGHT_LIMIT = 409.0
@@ -100,7 +102,14 @@ def write_value(cell: Cell | MergedCell, value: Any, font: Font | None = None, s
 
 
 def write_table(
-    sheet: Worksheet, shown: Table, system: System, row: int, column: int = 1, *, widest: int = _WIDEST
+    sheet: Worksheet,
+    shown: Table,
+    system: System,
+    row: int,
+    column: int = 1,
+    *,
+    widest: int = _WIDEST,
+    wider: Mapping[str, int] = _ALL_ALIKE,
 ) -> int:
     """Write a table with its header at (row, column); returns its last row.
 
@@ -110,6 +119,8 @@ def write_table(
         What, in which units, and where its first header cell goes.
     widest : int
         Width at which a column of long text stops growing [characters].
+    wider : mapping of str to int
+        The same of single columns, by their keys.
     """
     names = [shown.head(each, system) for each in shown.columns]
     for j, (each, name) in enumerate(zip(shown.columns, names, strict=True), start=column):
@@ -122,14 +133,15 @@ def write_table(
         _header_cell(sheet.cell(row, j), name, right=not text)
         at = row + 1, j
         patterns = [shown.unit(each, item, system).pattern for item in shown.rows]
-        longest = _text_column(sheet, at, values, widest) if text else _number_column(sheet, at, values, patterns)
+        most = wider.get(each.key, widest)
+        longest = _text_column(sheet, at, values, most) if text else _number_column(sheet, at, values, patterns)
         if each.kind == "verdict":
             _colour_verdicts(sheet, at, values)
         if each.asked:
             _mark_inputs(sheet, at, len(values))
         letter = get_column_letter(j)
         known = sheet.column_dimensions[letter].width if letter in sheet.column_dimensions else 0.0
-        wanted = min(widest, max(_NARROWEST, longest, round(_BOLD_WIDTH * _two_line_width(name)) + 3))
+        wanted = min(most, max(_NARROWEST, longest, round(_BOLD_WIDTH * _two_line_width(name)) + 3))
         sheet.column_dimensions[letter].width = max(known, wanted)
     _align_tops(sheet, (row + 1, row + len(shown.rows)), (column, column + len(names) - 1))
     wrapped = any(text_width(name) + 2 > _column_width(sheet, j) for j, name in enumerate(names, start=column))

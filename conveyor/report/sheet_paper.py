@@ -49,11 +49,17 @@ def columns_width(sheet: Worksheet, columns: Iterable[int]) -> float:
     return sum(look.width for look in looks if not look.hidden)
 
 
-def columns_of_text(sheet: Worksheet, columns: range) -> range:
+def columns_of_text(sheet: Worksheet, columns: range, widest: float = TEXT_WIDTH) -> range:
     """First of the columns, as many as a paragraph may take; at least one."""
-    while len(columns) > 1 and columns_width(sheet, columns) > TEXT_WIDTH:
+    while len(columns) > 1 and columns_width(sheet, columns) > widest:
         columns = columns[:-1]
     return columns
+
+
+def paragraph_width(sheet: Worksheet, columns: range, paper: str) -> float:
+    """Width of paragraphs [characters] below tables of these columns: that of a page across, if they take one."""
+    upright, across = (page_room(paper, portrait=portrait)[0] for portrait in (True, False))
+    return _SURE * across if upright < columns_width(sheet, columns) <= across else TEXT_WIDTH
 
 
 def set_up_print(
@@ -91,7 +97,7 @@ def set_up_print(
         sheet.page_setup.scale = round(100.0 * _SCALE)
         for last in parts[portrait]:
             sheet.col_breaks.append(Break(id=last))
-        if len(set(starts)) == 1 and sheet.print_title_cols is None:
+        if parts[portrait] and len(set(starts)) == 1 and sheet.print_title_cols is None:
             sheet.print_title_cols = "A:A"
     else:
         sheet.page_setup.fitToWidth = 1

@@ -102,9 +102,19 @@ class SheetWriter:
     name: str = ""
 
     def place(
-        self, key: str, row: int, column: int = 1, *, heading: bool = True, widest: int = _NAME_CHARACTERS
+        self,
+        key: str,
+        row: int,
+        column: int = 1,
+        *,
+        heading: bool = True,
+        widest: int = _NAME_CHARACTERS,
+        **wider: int,
     ) -> TablePlace:
-        """Write a table, its heading at (row, column) and its header below; define names for it and its figures."""
+        """Write a table, its heading at (row, column) and its header below; define names for it and its figures.
+
+        Text wraps at `widest` [characters], that of single columns at those in `wider`.
+        """
         part = self.contents[key].on_sheet()
         top = row
         if heading:
@@ -116,7 +126,7 @@ class SheetWriter:
             words = f"{len(part.rows):,} rows, the first {SHOWN_ROWS} here; all of them: {where}"
             write_value(self.sheet.cell(row, column + 2), words, GREY)
             shown = replace(part, rows=part.rows[:SHOWN_ROWS])
-        last = write_table(self.sheet, shown, self.contents.system, top, column, widest=widest)
+        last = write_table(self.sheet, shown, self.contents.system, top, column, widest=widest, wider=wider)
         place = TablePlace(top, last, column, tuple(each.key for each in part.columns), whole)
         self.placed[key] = self.sheet, place
         if whole:

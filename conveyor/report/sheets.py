@@ -15,7 +15,7 @@ from conveyor.files.output_marks import package_version
 from conveyor.report import charts
 from conveyor.report.cells import GREY, HEADING, TITLE, VERDICT_STYLES, line_count, write_value
 from conveyor.report.merged_notes import NOTE_HEADINGS, sort_notes
-from conveyor.report.sheet_paper import CHART_ROWS, columns_of_text, columns_width
+from conveyor.report.sheet_paper import CHART_ROWS, TEXT_WIDTH, columns_of_text, columns_width, paragraph_width
 from conveyor.report.sheet_writer import SheetWriter, define_name
 from conveyor.report.table_model import FAILS
 from conveyor.units.presentation import display_unit
@@ -187,9 +187,12 @@ def ranking_sheet(page: SheetWriter) -> None:
             title = f"Mean motor power against {facts['savings against']} at {at}"
             sheet.add_chart(charts.difference_chart(sheet, title, place, last), f"A{row}")
             row += CHART_ROWS
+    tables = [contents[key].on_sheet() for key in ("ranking", "costs") if key in contents]
+    printed = max((sum(column.page is not None for column in table.columns) for table in tables), default=0)
+    widest = paragraph_width(sheet, range(1, 1 + printed), about.paper)
     for heading, lines in zip(NOTE_HEADINGS, sort_notes(contents.lines("warning")), strict=True):
         if lines:
-            row = write_paragraphs(sheet, row, heading.capitalize(), lines, columns=8)
+            row = write_paragraphs(sheet, row, heading.capitalize(), lines, columns=max(8, printed), widest=widest)
     page.rest(row)
 
 
@@ -230,28 +233,36 @@ def coverage_sheet(page: SheetWriter) -> None:
 
 def compounds_sheet(page: SheetWriter) -> None:
     """Compounds, remarks, provenance."""
-    row = page.place("compounds", 1, widest=24).last + 3
+    row = page.place("compounds", 1, widest=24, unknown=34).last + 3
     row = write_paragraphs(page.sheet, row, "Remarks", page.contents.lines("warning"), columns=6)
-    page.place("provenance", row, widest=34)
+    page.place("provenance", row, widest=24)
     page.sheet.freeze_panes = "B1"
 
 
 def write_paragraphs(
-    sheet: Worksheet, row: int, heading: str, lines: tuple[str, ...] | list[str], columns: int = 4
+    sheet: Worksheet,
+    row: int,
+    heading: str,
+    lines: tuple[str, ...] | list[str],
+    *,
+    columns: int = 4,
+    widest: float = TEXT_WIDTH,
 ) -> int:
     """Write a heading and lines of text across columns; return the next row but one."""
     write_value(sheet.cell(row, 1), heading, HEADING)
     for line in lines or ("none",):
         row += 1
-        _write_across(sheet, row, 1, line, columns=columns)
+        _write_across(sheet, row, 1, line, columns=columns, widest=widest)
     return row + 2
 
 
-def _write_across(sheet: Worksheet, row: int, column: int, line: str, *, columns: int) -> None:
+def _write_across(
+    sheet: Worksheet, row: int, column: int, line: str, *, columns: int, widest: float = TEXT_WIDTH
+) -> None:
     """Write text across columns, wrapped."""
     cell = sheet.cell(row, column)
     write_value(cell, line)
     cell.alignment = Alignment(wrap_text=True, vertical="top", indent=1)
-    over = columns_of_text(sheet, range(column, column + columns))
+    over = columns_of_text(sheet, range(column, column + columns), widest)
     sheet.merged_cells.add(f"{cell.coordinate}:{get_column_letter(over[-1])}{row}")
     sheet.row_dimensions[row].height = 15.0 * line_count(line, columns_width(sheet, over))
