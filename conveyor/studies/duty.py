@@ -182,7 +182,7 @@ def sum_year(conveyor: Conveyor, bars: Iterable[CalculatedConveyor]) -> Calculat
         There is no operation.
     """
     rows = tuple(_duty_row(entry, bar) for entry, bar in zip(_duty_entries(conveyor), bars, strict=True))
-    operation = _operation(conveyor)
+    operation = _operation_of(conveyor)
     year = duty_sums([row.step for row in rows])
     price, factor, saved = operation.price, operation.emission, operation.feed_in_emission
     return CalculatedYear(
@@ -199,7 +199,7 @@ def sum_year(conveyor: Conveyor, bars: Iterable[CalculatedConveyor]) -> Calculat
     )
 
 
-def _operation(conveyor: Conveyor) -> Operation:
+def _operation_of(conveyor: Conveyor) -> Operation:
     """Operation of a conveyor, refused where there is none."""
     if conveyor.operation is None:
         raise InputError("operation: missing; hours_per_year or duty say how the conveyor is used")
@@ -208,7 +208,7 @@ def _operation(conveyor: Conveyor) -> Operation:
 
 def _duty_entries(conveyor: Conveyor) -> tuple[DutyEntry, ...]:
     """Bars of the duty; without one, all hours at full load."""
-    operation = _operation(conveyor)
+    operation = _operation_of(conveyor)
     return operation.duty or (DutyEntry(hours=operation.hours_per_year, share=quantity("100 %")),)
 
 
