@@ -141,7 +141,7 @@ def analyse_duty(
     Examples
     --------
     >>> import conveyor
-    >>> line = conveyor.load("examples/specs/overland_duty.yaml")  # doctest: +SKIP
+    >>> line = conveyor.load("examples/specs/overland_10km.yaml")  # doctest: +SKIP
     >>> conveyor.analyse_duty(line).summary  # doctest: +SKIP
     """
     return sum_year(conveyor, calculate_bars(conveyor, take_up, rtol, progress))

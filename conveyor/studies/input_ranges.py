@@ -173,7 +173,7 @@ def analyse_ranges(
     Examples
     --------
     >>> import conveyor
-    >>> line = conveyor.load("examples/specs/overland_duty.yaml")  # doctest: +SKIP
+    >>> line = conveyor.load("examples/specs/overland_10km.yaml")  # doctest: +SKIP
     >>> conveyor.uncertainty.study(line).table  # doctest: +SKIP
     """
     given = conveyor.uncertainty if ranges is None else ranges
