@@ -75,11 +75,12 @@ class Translator:
     def __post_init__(self) -> None:
         self._known: dict[str, tuple[str, tuple[str, ...]]] = {}
         self._made: set[str] = set()
+        self._kept: set[str] = set()
 
     def text(self, words: str) -> str:
         """Translate a text; what is translated already, and what has no translation, stays as it is."""
         inner = words.strip()
-        if not inner or self._is_made(inner):
+        if not inner or inner in self._kept or self._is_made(inner):
             return words
         translated, left = self._resolve(inner)
         self.missing.update(dict.fromkeys(left))
@@ -101,13 +102,13 @@ class Translator:
         return label is not None and label[1] in self._made
 
     def keep(self, words: str) -> str:
-        """Leave a text as it is, here and wherever it comes again."""
-        self._made.add(words.strip())
+        """Leave a text as it is, here and wherever it comes again as a whole."""
+        self._kept.add(words.strip())
         return words
 
     def numbers_only(self, words: str) -> str:
         """Write a number as the language has it; other text stays as it is."""
-        known = words in self._made or not _figure_pattern().fullmatch(words.strip())
+        known = words in self._kept or words in self._made or not _figure_pattern().fullmatch(words.strip())
         return words if known else self.catalogue.numbers.localise(words)
 
     def _resolve(self, words: str) -> tuple[str, tuple[str, ...]]:
@@ -134,7 +135,7 @@ class Translator:
 
     def _whole(self, words: str) -> str | None:
         """Translation of a text known whole, or the text where it is the same in all languages; None for others."""
-        if not words.strip() or words in self.names:
+        if not words.strip() or words in self.names or self._is_made(words):
             return words
         if any(one.fullmatch(words) for one in (_figure_pattern(), _SYMBOL_FIGURE)) or not _LATIN.search(words):
             return self.catalogue.numbers.localise(words)
