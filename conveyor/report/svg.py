@@ -33,6 +33,7 @@ _WIDTH = 6.9
 _PAPER_WIDTH = 4.0
 """Width of a figure on paper [in]: its letters are of 8 pt in half the width of A4, 3.55 in."""
 _PAPER_HEIGHT_POWER = 0.8  # of its width over the figure's own: narrow figures are less flat
+_NUMBERED_BARS = 0.8  # least height of bars with numbers, of the figure's own with its title
 _PAPER_ROW = 1.5  # least height of a row of axes on paper [in]
 _PAPER_TICKS = 4  # spaces between the numbers of a linear axis on paper
 _FONT_SIZE = 9.0  # [pt]
@@ -86,7 +87,9 @@ def restyle_figure(figure: Figure, *, on_paper: bool = False) -> None:
     width = _PAPER_WIDTH if on_paper else _WIDTH
     flattened = min(1.0, width / figure.get_figwidth()) ** (_PAPER_HEIGHT_POWER if on_paper else 1.0)
     height = max(figure.get_figheight() * flattened, _PAPER_ROW * rows if on_paper else 0.0)
-    figure.set_size_inches(width, min(_MOST_HEIGHT * max(1.0, rows / 2.0), height))
+    height = min(_MOST_HEIGHT * max(1.0, rows / 2.0), height)
+    least = _NUMBERED_BARS * figure.get_figheight() if _has_numbered_bars(figure) else 0.0
+    figure.set_size_inches(width, max(height, least))
     lines = []
     for axis in figure.axes:
         axis.set_title("", pad=None)
@@ -112,6 +115,14 @@ def restyle_figure(figure: Figure, *, on_paper: bool = False) -> None:
     _fit_margins(figure)
     if on_paper and _wrap_labels(figure):
         _fit_margins(figure)
+
+
+def _has_numbered_bars(figure: Figure) -> bool:
+    """True for bars in rows with their numbers, which would stand on each other in a lower figure."""
+    return any(
+        axis.texts and any(getattr(bars, "orientation", "") == "horizontal" for bars in axis.containers)
+        for axis in figure.axes
+    )
 
 
 def _wrap_labels(figure: Figure) -> bool:

@@ -79,9 +79,13 @@ def test_breakdown_with_cema_has_a_third_bar(line):
     assert found.cema is not None
     assert bars(axis, "CEMA classic, given Ky")[-1] == pytest.approx(found.cema.total / 1e3)
     assert len(bars(axis, "CEMA classic, given Ky")) == 5
-    axis.figure.draw_without_rendering()
-    boxes = sorted((text.get_window_extent() for text in axis.texts), key=lambda box: -box.y0)
-    assert all(upper.y0 >= lower.y1 for upper, lower in pairwise(boxes))  # no number on another
+    for on_paper in (None, False, True):  # as a file, on a page, in a PDF
+        (axis,) = plots.resistance_breakdown(found).axes
+        if on_paper is not None:
+            restyle_figure(axis.figure, on_paper=on_paper)
+        axis.figure.draw_without_rendering()
+        boxes = sorted((text.get_window_extent() for text in axis.texts), key=lambda box: -box.y0)
+        assert all(upper.y0 >= lower.y1 for upper, lower in pairwise(boxes))  # no number on another
 
 
 def test_pressure_carries_the_load_and_peaks_as_the_roll_says(result):
