@@ -219,6 +219,10 @@ def _parse_value(written: str) -> Any:
         return written
 
 
+class StudyStop(Exception):  # noqa: N818 no fault of anybody
+    """A study was stopped by Ctrl-C; its message says what is kept."""
+
+
 def print_json(data: object) -> None:
     """Print one JSON object in UTF-8, whatever the terminal's encoding: RFC 8259, section 8.1."""
     print_text(json_text(data))

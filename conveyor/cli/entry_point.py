@@ -15,7 +15,7 @@ from typing import Any, Final, NoReturn, TextIO
 
 import typer
 
-from conveyor.cli.application import app
+from conveyor.cli.application import StudyStop, app
 from conveyor.errors import ConveyorError, InputError
 from conveyor.text.printable import escape_controls
 
@@ -25,7 +25,7 @@ EXIT_WRONG_INPUT: Final = 2
 EXIT_INTERRUPTED: Final = 130
 """128 + SIGINT, as shells give it."""
 _RESUMABLE_COMMANDS: Final = (["study"], ["optimise"])
-"""Commands that can be resumed after a stop."""
+"""Commands that keep what they have calculated when they are stopped."""
 
 _UsageError: type[Exception] = next(t for t in typer.BadParameter.__mro__ if t.__name__ == "UsageError")
 _REPORT_OPTIONS: Final = ("--xlsx", "--html", "--pdf")
@@ -50,6 +50,8 @@ def main() -> None:
         _exit_with(f"conveyor: {error}", EXIT_NO_SOLUTION)
     except _UsageError as error:
         _exit_with(usage_message(error), EXIT_WRONG_INPUT)
+    except StudyStop as stop:
+        _exit_with(f"conveyor: stopped by Ctrl-C; {stop}", EXIT_INTERRUPTED)
     except (KeyboardInterrupt, typer.Abort):
         code = EXIT_INTERRUPTED
     except MemoryError:
@@ -62,7 +64,7 @@ def main() -> None:
         _discard_output()
         _exit_with(f"conveyor: {error.filename or 'output'}: {error.strerror or error}", EXIT_WRONG_INPUT)
     if code == EXIT_INTERRUPTED:
-        kept = "; what is done is kept: run it again to go on" if sys.argv[1:2] in _RESUMABLE_COMMANDS else ""
+        kept = "; nothing was finished yet" if sys.argv[1:2] in _RESUMABLE_COMMANDS else ""
         _exit_with(f"conveyor: stopped by Ctrl-C{kept}", EXIT_INTERRUPTED)
     sys.exit(code if isinstance(code, int) else EXIT_DONE)
 

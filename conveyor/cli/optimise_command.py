@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from conveyor.cli.application import argument, option, print_lines
 from conveyor.cli.output_files import SPEC
 from conveyor.cli.shared_options import Session, session_command
-from conveyor.cli.study_command import describe_design, design_spec
+from conveyor.cli.study_command import describe_design, design_spec, open_answers
 from conveyor.cli.worker_processes import Scheduler, Workers, open_executor, preload_workers
 from conveyor.files import output_marks
 
@@ -37,7 +37,7 @@ def optimise(
     preload_workers(scheduler, workers)
     from conveyor import shelf as shelves
     from conveyor.studies.optimise import optimise as search
-    from conveyor.studies.parametric_study import ParametricStudy, ResultStore
+    from conveyor.studies.parametric_study import ParametricStudy
     from conveyor.studies.study_file import base_spec_path, name_plan_file, read_search
 
     plan = read_search(plan_file)
@@ -49,7 +49,7 @@ def optimise(
     to = session.outputs(plan_file, spec)
     to.file("--output", output, *SPEC, kind=output_marks.DESIGN)
     with ExitStack() as stack:
-        known = stack.enter_context(ResultStore(output.with_name(f"{output.name}.answers")))
+        known = stack.enter_context(open_answers(output))
         before = len(known)
         told = stack.enter_context(session.progress())
         executor = stack.enter_context(open_executor(scheduler, workers))

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence, Set
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator, Sequence, Set
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
 
-from conveyor.cli.application import ImageKind, PlotKind, PlotsFolder, argument, option, print_lines
+from conveyor.cli.application import ImageKind, PlotKind, PlotsFolder, StudyStop, argument, option, print_lines
 from conveyor.cli.output_files import REPORT, Outputs
 from conveyor.cli.shared_options import Session, session_command
 from conveyor.cli.worker_processes import Scheduler, Workers, open_executor, preload_workers
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from conveyor.report.table_model import Contents
     from conveyor.studies.design_figures import Design
     from conveyor.studies.evaluation import StudySummary
-    from conveyor.studies.parametric_study import KeyedPoint, ParametricStudy, Point
+    from conveyor.studies.parametric_study import KeyedPoint, ParametricStudy, Point, ResultStore
     from conveyor.units import System
 
 _REASONS_SHOWN = 3
@@ -85,7 +85,7 @@ def study(
     to.folder("--specs", specs)
     begun = perf_counter()
     with ExitStack() as stack:
-        known = stack.enter_context(running.ResultStore(output.with_name(f"{output.name}.answers")))
+        known = stack.enter_context(open_answers(output))
         before = len(known)
         told = stack.enter_context(session.progress())
         executor = stack.enter_context(open_executor(scheduler, workers))
@@ -123,6 +123,20 @@ def study(
         print_lines(f"table: {output}", *([] if designs is None else [f"designs: {designs}"]))
 
     session.answer(lambda: plain | design_tables.study_json(evaluated), to, show)
+
+
+@contextmanager
+def open_answers(output: Path) -> Iterator[ResultStore]:
+    """Open the file of answers beside an output; at Ctrl-C say how many points it keeps."""
+    from conveyor.studies.parametric_study import ResultStore
+
+    answers = output.with_name(f"{output.name}.answers")
+    with ResultStore(answers) as known:
+        try:
+            yield known
+        except KeyboardInterrupt:
+            kept = f"{len(known):,} points are kept in {answers}: run it again to go on"
+            raise StudyStop(kept if len(known) else "nothing was finished yet") from None
 
 
 def _points_file(outputs: Sequence[Path]) -> Path:

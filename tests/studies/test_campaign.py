@@ -122,21 +122,26 @@ def test_python_has_the_points_of_a_file_and_of_data(line, tmp_path):
     assert repr(found) == 'Study("speeds": 6 points, 0 without an answer; 6 designs, 6 keep the limits)'
 
 
-def test_a_study_that_is_stopped_says_that_it_goes_on(tmp_path):
+def test_a_study_that_is_stopped_says_what_is_kept(tmp_path):
     def stop(*_, **__):
         raise KeyboardInterrupt
 
     file = tmp_path / "study.json"
     file.write_text(json.dumps(PLAN | {"base": str(SPECS / "shuttle.yaml")}), encoding="utf-8")
-    done = command(
-        "study",
-        file,
-        "-o",
-        tmp_path / "t.csv",
-        spoil=lambda patched: patched.setattr("conveyor.studies.parametric_study.run_study", stop),
-    )
-    assert done.returncode == 130
-    assert done.stderr == "conveyor: stopped by Ctrl-C; what is done is kept: run it again to go on\n"
+    for kept in (
+        "nothing was finished yet",
+        f"6 points are kept in {tmp_path / 't.csv.answers'}: run it again to go on",
+    ):
+        done = command(
+            "study",
+            file,
+            "-o",
+            tmp_path / "t.csv",
+            spoil=lambda patched: patched.setattr("conveyor.studies.parametric_study.run_study", stop),
+        )
+        assert done.returncode == 130
+        assert done.stderr == f"conveyor: stopped by Ctrl-C; {kept}\n"
+        assert command("study", file, "-o", tmp_path / "t.csv", "-q").returncode == 0
 
 
 def test_a_point_without_an_answer_says_why(line, tmp_path):
