@@ -18,6 +18,8 @@ _PATH_PART: Final = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 _PLAIN: Final = re.compile(r"(?:[^\W_]|[-+.]\d)(?:[\w ./()+*^%°²³=<>~;–-]*[\w./)+*^%°²³=<>~;–-])?")
 """Text that may stand without quotes, in flow style too."""
 _INDENT: Final = 2
+_COMMENT_BLANKS: Final = 2
+"""Blanks left before a comment, if there were as many."""
 
 
 class _MissingKeys(NamedTuple):
@@ -83,12 +85,20 @@ def edit_values(content: str, changes: Mapping[str, Any], path: Path) -> str:
             spans.append((found.start_mark.index, end, text))
     text = before
     for start, end, new in sorted(spans, reverse=True):
-        text = text[:start] + new + text[end:]
+        text = text[:start] + new + _comment_in_place(text[start:end], new, text[end:])
     for field in later:
         text = _insert_value(text, field, changes[field], path, is_json=is_json)
     if parse_document(text, path).data != wanted:
         raise InputError(f"{path}: {', '.join(changes)}: cannot be changed in place; change the file in an editor")
     return mark + text
+
+
+def _comment_in_place(old: str, new: str, rest: str) -> str:
+    """Rest of a file behind a value, its comment in its column where there are blanks enough."""
+    blanks = len(rest) - len(rest.lstrip(" "))
+    if "\n" in old + new or rest[blanks : blanks + 1] != "#":
+        return rest
+    return " " * max(min(blanks, _COMMENT_BLANKS), blanks + len(old) - len(new)) + rest[blanks:]
 
 
 def _path_steps(field: str) -> list[int | str]:

@@ -47,6 +47,8 @@ def test_the_edited_file_is_the_changed_conveyor(tmp_path):
     ("before", "changes", "after"),
     [
         ("a: 1 # one\n", {"a": 2}, "a: 2 # one\n"),
+        ("a: 5 m/s     # one\n", {"a": "5.55 m/s"}, "a: 5.55 m/s  # one\n"),
+        ("a: 5.55 m/s  # one\n", {"a": "5 m/s"}, "a: 5 m/s     # one\n"),
         ("a: 1", {"b.c": "3 m"}, "a: 1\nb:\n  c: 3 m\n"),
         ("a: {x: 1 m} # k\n", {"a.y": "2 m"}, "a: {x: 1 m, y: 2 m} # k\n"),
         ("a: {x: 1,}\n", {"a.y": 2}, "a: {x: 1, y: 2,}\n"),
