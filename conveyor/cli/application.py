@@ -142,7 +142,7 @@ AsJson = Annotated[bool, option("Print one JSON object on stdout and nothing els
 UnitsOption = Annotated[
     Units | None,
     option(
-        "Units of the output; else report.units of the spec. JSON is always SI.",
+        "Units of the output; else report.units of the spec. Figures of JSON are always SI.",
         None,
         "--units",
         show_default=False,

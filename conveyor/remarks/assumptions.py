@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from typing import Final
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.horizontal_curve import FULL_SLIP_TILT
 from conveyor.laws.resistance import FLEXURE_COEFFICIENT, FLEXURE_SHARE, ROLL_ON_BELT_FRICTION
+from conveyor.laws.resistance.service_drag import USUAL_BEARINGS
 from conveyor.laws.wind import WIND_DRAG, WIND_LIFT
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.stretches import misalignment_angle
@@ -19,6 +21,11 @@ from conveyor.models.rolls import BearingDrag, MakerDrag
 from conveyor.units import text
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import percent
+
+_USUAL_BEARINGS: Final = ", ".join(
+    f"{bearing.name} to {1e3 * largest:.0f} mm" for largest, bearing in USUAL_BEARINGS if largest < math.inf
+)
+"""Usual bearings of rolls by the largest diameter that has them."""
 
 
 def analysis_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
@@ -51,6 +58,23 @@ def failed_fits(compounds: Iterable[RubberCompound]) -> Iterator[str]:
     failed = ((one.name, one.fit.failed) for one in compounds if one.fit is not None and one.fit.failed)
     for name, criteria in dict.fromkeys(failed):
         yield f'the fit of "{name}" fails, do not design by it: {"; ".join(criteria)}'
+
+
+def stepped_drags(conveyor: Conveyor, paths: Iterable[str]) -> Iterator[str]:
+    """Diameters of rolls among varied fields whose drag is that of usual bearings, which change with the diameter."""
+    sets = {"carry": conveyor.idlers.carry, "return": conveyor.idlers.return_}
+    for path in paths:
+        _, _, below = path.partition("idlers.")
+        strand, _, field = below.partition(".")
+        given = sets.get(strand)
+        if given is None or given.drag is not None or field not in {"roll.diameter", "middle_roll.diameter"}:
+            continue
+        roll = given.middle if field.startswith("middle") else given.roll
+        if roll.drag is None and roll.drag_law is None:
+            yield (
+                f"{path} varies, the drag of its rolls is not given: their usual bearing changes with the diameter, "
+                f"{_USUAL_BEARINGS}, and the drag with it in steps"
+            )
 
 
 def _horizontal_assumptions(conveyor: Conveyor) -> Iterator[str]:

@@ -12,7 +12,9 @@ import pytest
 import conveyor
 from conveyor import shelf
 from conveyor.errors import InputError
+from conveyor.languages.translator import report_translator
 from conveyor.models.study import StudyPlan
+from conveyor.remarks.assumptions import stepped_drags
 from conveyor.report.tables.design_tables import study_contents
 from conveyor.results.analysis import studies
 from conveyor.studies.design_figures import pareto_front, weighted_mean, weighted_percentile
@@ -403,3 +405,17 @@ def test_what_is_sought_without_a_word_is_the_least_power_and_the_most_safety(li
     for asked, sought in (("motor_power", "least"), ("belt_safety_steady", "most"), ("flow", "most")):
         study = campaign(line, states=[], figures=[], best={}, outputs=[asked])
         assert study_objectives(study.listed, study.figures, study.base) == {asked: sought}
+
+
+def test_varied_diameters_say_that_the_usual_bearing_changes_with_them(line):
+    paths = ("belt.speed", "idlers.carry.roll.diameter", "idlers.return.roll.diameter")
+    carry = line.idlers.carry
+    given = line.replace(idlers=line.idlers.replace(carry=carry.replace(roll=carry.roll.replace(drag="2 N"))))
+    free = line.replace(
+        idlers=line.idlers.replace(carry=carry.replace(drag=None, roll=carry.roll.replace(drag=None, drag_law=None)))
+    )
+    for made, said in ((free, True), (given, False)):
+        notes = [note for note in stepped_drags(made, paths) if note.startswith("idlers.carry.roll.diameter varies")]
+        assert len(notes) == said
+        assert all("6205 to 133 mm, 6305 to 159 mm" in note for note in notes)
+        assert all(report_translator("de").text(note) != note for note in notes)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
-from conveyor.remarks.assumptions import failed_fits
+from conveyor.remarks.assumptions import failed_fits, stepped_drags
 from conveyor.report.design_plots import DesignPlots
 from conveyor.report.point_tables import money_kind
 from conveyor.report.table_model import Column, Contents, Drawing, PagePlacement, Table, remark_table
@@ -43,6 +43,11 @@ _CAPTIONS: Final = {
 _FRONT_ROWS: Final = 50  # rows of the front on the page
 
 
+def _study_warnings(study: StudySummary) -> list[str]:
+    """Compounds whose fit fails, and varied diameters that change the drag of rolls in steps."""
+    return [*failed_fits(study.compounds), *stepped_drags(study.base, study.plan.paths)]
+
+
 def study_contents(study: StudySummary, system: System) -> Contents:
     """Contents of the report of a study's designs in a unit system."""
     parts = (
@@ -50,7 +55,7 @@ def study_contents(study: StudySummary, system: System) -> Contents:
         pareto_front(study),
         effect_table(study),
         refused_designs(study),
-        remark_table({"warning": failed_fits(study.compounds)}, "Notes", page="remarks"),
+        remark_table({"warning": _study_warnings(study)}, "Notes", page="remarks"),
         provenance_table(fingerprint(study.base), "Notes"),
     )
     facts = (
