@@ -121,6 +121,13 @@ class Conveyor(ConveyorParts):
         return skirted_areas(self)
 
     @property
+    def lowest_temperature(self) -> float:
+        """Lowest temperature of covers and air, as given, in the cases and in the duty [K]."""
+        cases = [si(each) for case in self.cases for each in case.temperatures]
+        bars = [si(bar.temperature) for bar in self.duty if bar.temperature is not None]
+        return min(self.temperature, self.air_temperature, *cases, *bars)
+
+    @property
     def flooded_section(self) -> float:
         """Bulk cross-section of a level belt heaped from edge to edge, or between skirts, or of a full pipe [m²]."""
         flooded = self.idlers.carry.shape.flooded_section(self.belt_width, self.material.surcharge)

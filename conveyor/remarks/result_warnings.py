@@ -36,7 +36,7 @@ from conveyor.models.rolls import BearingDrag
 from conveyor.remarks.assumptions import failed_fits, library_models, rolls_by_field
 from conveyor.remarks.bed_warnings import bed_warnings
 from conveyor.remarks.hopper_warnings import hopper_warnings
-from conveyor.units import quantity, same_value, si, text
+from conveyor.units import quantity, same_value, text
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import Message, escape_braces, message, percent
 
@@ -334,11 +334,7 @@ def _driven_pulley_warnings(conveyor: Conveyor) -> Iterator[Message]:
 
 def _cold_warnings(conveyor: Conveyor) -> Iterator[Message]:
     """A classical method below freezing with the factors of a warm day."""
-    calculation = conveyor.calculation
-    cases = [si(each) for case in conveyor.cases for each in case.temperatures]
-    duty = () if conveyor.operation is None else conveyor.operation.duty
-    bars = [si(bar.temperature) for bar in duty if bar.temperature is not None]
-    lowest = min(conveyor.temperature, si(conveyor.ambient.temperature), *cases, *bars)
+    calculation, lowest = conveyor.calculation, conveyor.lowest_temperature
     if calculation.method == "viscoelastic" or lowest >= FREEZING:
         return
     if calculation.method in FACTOR_METHODS:

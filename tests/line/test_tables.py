@@ -59,7 +59,7 @@ def test_cema_stands_beside_only_where_its_factors_are_given(line, result, tmp_p
     found = conveyor.analyse(line.replace(calculation=line.calculation.replace(cema=CEMA)))
     table = written_tables(found, tmp_path)["classical"].set_index("quantity")["CEMA classic, given Ky"]
     table = table[[name for name in table.index if name.endswith(("[N]", "[kW]"))]].astype(float)
-    parts = table["main [N]"] + table["secondary [N]"] + table["special [N]"] + table["lift [N]"]
+    parts = table["main [N]"] + table["secondary [N]"] + table["special [N]"] + table["lift force [N]"]
     assert table["effective tension [N]"] == pytest.approx(parts, rel=1e-12)
     told = found.to_dict()["cema"]
     assert told["total_N"] == pytest.approx(table["effective tension [N]"], rel=1e-14)

@@ -202,7 +202,7 @@ def test_comparison_is_on_the_resistances_sheet(book, overland):
     sheet = openpyxl.load_workbook(book)["Resistances"]
     rows = {row[0]: row[1:3] for row in sheet.iter_rows(values_only=True)}
     for name, ours, classical in overland.tables["classical"].frame().itertuples(index=False):
-        if name != "lift [N]":  # both name a row of forces too
+        if name != "lift force [N]":  # both name a row of forces too
             assert rows[name] == pytest.approx((ours, classical), rel=DIGITS)
 
 
@@ -420,8 +420,8 @@ def _recalculated(book, changes):
     for column in formulas.iter_cols():  # a saving takes a cost of a row below it
         for cell in column:
             if cell.data_type == "f":
-                paid = r'IF\((\w+)="","",IF\((\w+)>0,\1/\2,"never"\)\)'
-                text = re.sub(paid, r'"" if \1 is None else \1 / \2 if \2 > 0.0 else "never"', cell.value[1:])
+                paid = r'IF\((\w+)="","",IF\((\w+)>0,MAX\(\1,0\)/\2,"never"\)\)'
+                text = re.sub(paid, r'"" if \1 is None else max(\1, 0) / \2 if \2 > 0.0 else "never"', cell.value[1:])
                 known[cell.coordinate] = eval(text, {}, space | known)  # noqa: S307 our own
                 yield cell.coordinate, known[cell.coordinate], values[cell.coordinate].value
 

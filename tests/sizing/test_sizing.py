@@ -263,6 +263,10 @@ def test_the_command_writes_specs_that_run(tmp_path):
         found = conveyor.analyse(conveyor.load(tmp_path / name))
         assert found.conveyor.name == "Small"
     again = run("size", "duty.yaml", "-n", "2", "-o", "best.yaml", cwd=tmp_path)
+    assert again.returncode == 0, again.stderr  # nobody has edited them
+    edited = tmp_path / "best-2.yaml"
+    edited.write_text(edited.read_text(encoding="utf-8").replace("name: Small", "name: Mine"), encoding="utf-8")
+    again = run("size", "duty.yaml", "-n", "2", "-o", "best.yaml", cwd=tmp_path)
     assert (again.returncode, "--force" in again.stderr) == (2, True)
 
 
