@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import runpy
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -190,6 +191,23 @@ def test_the_constants_of_a_law_stand_in_every_output(law):
     assert facts["shift law kept"] == f"{'WLF' if law == 'wlf' else 'Arrhenius'}: {constants}"
     laws = contents["laws"]
     assert constants in [laws.columns[1].get(row) for row in laws.rows]
+
+
+def test_sweeps_that_begin_above_the_working_strain_have_no_factor_there():
+    """Their table stands all the same; one that holds 2.2 % has that of itself."""
+    whole = shelf.compound("s100")
+    data = whole.strain_dependence
+    high = [one.replace(**{name: getattr(one, name)[-8:] for name in ("strain", "storage", "loss")})
+            for one in data.sweeps]  # fmt: skip
+    above = whole.replace(strain_dependence=data.replace(sweeps=high, reference_strain="5 %"))
+    for compound, known in ((whole, True), (above, False)):
+        shown = fit_tables.strain_sweep_table(SimpleNamespace(compound=compound, levels=()))
+        columns = {column.key: column for column in shown.columns}
+        for key, curve in (("storage_factor", "storage"), ("loss_factor", "loss")):
+            found = [columns[key].get(row) for row in shown.rows]
+            factors = compound.amplitude_factors()
+            expected = [float(getattr(factors, curve)(0.022, row.temperature)) for row in shown.rows] if known else None
+            assert found == (pytest.approx(expected) if known else [None] * len(high))
 
 
 def test_a_law_has_its_error_in_the_band(tmp_path: Path):

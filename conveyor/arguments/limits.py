@@ -36,7 +36,8 @@ MOST_WORKERS: Final = 1024
 
 def require_workers(workers: int) -> None:
     """Refuse a number of workers that no executor has."""
-    require(1 <= workers <= MOST_WORKERS, "workers", workers, f"a whole number from 1 to {MOST_WORKERS}")
+    ok = isinstance(workers, Integral) and not isinstance(workers, bool) and 1 <= int(workers) <= MOST_WORKERS
+    require(ok, "workers", workers, f"a whole number from 1 to {MOST_WORKERS}")
 
 
 def require_finite(**values: float) -> None:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Annotated
 
+from conveyor.arguments.limits import MOST_WORKERS
 from conveyor.cli.application import (
     AsParquet,
     ImageKind,
@@ -84,7 +85,7 @@ def compare(
     parquet: AsParquet = False,
     plots: PlotsFolder = None,
     plot_kind: PlotKind = ImageKind.PNG,
-    workers: Annotated[int, option("Processes.", "N", min=1, max=1024)] = 1,
+    workers: Annotated[int, option("Processes.", "N", min=1, max=MOST_WORKERS)] = 1,
 ) -> None:
     """Compare rubber compounds on a conveyor: power, energy, cost and payback over temperature and speed."""
     preload_workers(None, workers)

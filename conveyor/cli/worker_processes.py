@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from typing import TYPE_CHECKING, Annotated
 
+from conveyor.arguments.limits import MOST_WORKERS
 from conveyor.cli.application import option
 from conveyor.errors import ConveyorError, InputError
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 LOCAL = "local"
 """Scheduler address of a cluster on this machine only."""
-Workers = Annotated[int, option("Processes, or workers of the cluster.", "N", min=1, max=1024)]
+Workers = Annotated[int, option("Processes, or workers of the cluster.", "N", min=1, max=MOST_WORKERS)]
 Scheduler = Annotated[
     str | None,
     option("Of a Dask cluster (package distributed), or local for one that ends with the command.", "ADDRESS"),

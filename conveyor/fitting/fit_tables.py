@@ -16,7 +16,7 @@ from conveyor.fitting.shift_choice import law_constants
 from conveyor.models.given_names import given_names
 from conveyor.models.report import Paper
 from conveyor.report.table_model import Column, Contents, ReportHead, Table
-from conveyor.rubber import StrainSweep
+from conveyor.rubber import AmplitudeFactors, StrainSweep
 from conveyor.units.sentences import percent, to_celsius
 
 DOCUMENT_FIELDS: Final = ("laboratory", "number", "specimen", "instrument", "method", "measured", "by")
@@ -149,9 +149,10 @@ def strain_sweep_table(fitted: FittedCompound) -> Table:
 
     def factor(name: str) -> Callable[[StrainSweep], float | None]:
         def at(sweep: StrainSweep) -> float | None:
-            if factors is None or sweep.strain[-1] < WORKING_STRAIN:
+            if factors is None or not sweep.strain[0] <= WORKING_STRAIN <= sweep.strain[-1]:
                 return None
-            return float(getattr(factors, name)(WORKING_STRAIN, sweep.temperature))
+            alone = AmplitudeFactors([sweep], factors.reference_strain)
+            return float(getattr(alone, name)(WORKING_STRAIN, sweep.temperature))
 
         return at
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 import numpy as np
@@ -257,6 +259,10 @@ class SweptStrain(Model):
 
     def sweep(self) -> StrainSweep:
         """Return the sweep in SI."""
+        return self._sweep
+
+    @cached_property
+    def _sweep(self) -> StrainSweep:
         from conveyor.rubber import StrainSweep
 
         scale = _PASCALS_PER_UNIT[self.unit]
@@ -305,7 +311,7 @@ class StrainDependence(Model):
     def draw(self, random: np.random.Generator) -> StrainDependence:
         """Draw sweeps that the same measurement could have given, each by its scatter from row to row."""
         drawn = tuple(sweep.draw(random) for sweep in self.sweeps)
-        return self if drawn == self.sweeps else self.replace(sweeps=drawn)
+        return self if all(map(operator.is_, drawn, self.sweeps)) else self.replace(sweeps=drawn)
 
 
 class FitStatistics(Model):

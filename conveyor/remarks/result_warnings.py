@@ -38,7 +38,7 @@ from conveyor.remarks.bed_warnings import bed_warnings
 from conveyor.remarks.hopper_warnings import hopper_warnings
 from conveyor.units import quantity, same_value, text
 from conveyor.units.presentation import format_figure
-from conveyor.units.sentences import Message, escape_braces, message, percent
+from conveyor.units.sentences import ZERO_CELSIUS, Message, escape_braces, message, percent
 
 LEAST_PUBLISHED_FRICTION: Final = 0.0075
 """Friction factor measured over six shifts on Henderson PC2, 16.28 km (Alspaugh, MINExpo 2004) [-]."""
@@ -46,8 +46,6 @@ LEAST_FILLING: Final = 0.01
 """Share of the section that the belt holds to its edges below which a unit may be wrong [-]; general knowledge."""
 LARGEST_MOTORS: Final = 20.0
 """Installed power over that asked for above which a unit may be wrong [-]; general knowledge."""
-FREEZING: Final = 273.15
-"""Temperature above which CEMA's Kt is 1 [K]."""
 
 
 def analysis_warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Message, ...]:
@@ -335,7 +333,7 @@ def _driven_pulley_warnings(conveyor: Conveyor) -> Iterator[Message]:
 def _cold_warnings(conveyor: Conveyor) -> Iterator[Message]:
     """A classical method below freezing with the factors of a warm day."""
     calculation, lowest = conveyor.calculation, conveyor.lowest_temperature
-    if calculation.method == "viscoelastic" or lowest >= FREEZING:
+    if calculation.method == "viscoelastic" or lowest >= ZERO_CELSIUS:  # freezing: above it CEMA's Kt is 1
         return
     if calculation.method in FACTOR_METHODS:
         yield message(

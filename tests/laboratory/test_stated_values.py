@@ -52,6 +52,20 @@ def test_lines_that_differ_are_refused_and_those_without_a_unit_left(tmp_path):
     assert read(tmp_path, "Temperature: 20\nTemperature: room\n" + SWEEP).temperature is None
 
 
+@pytest.mark.parametrize(
+    ("above", "said"),
+    [
+        ("Temperature: -300 °C\n", r'sweep\.csv:1: .*"Temperature" says -300 °C; -160 to 250 degC are allowed'),
+        ("Temperature: 5000 °C\n", "-160 to 250 degC are allowed"),
+        ("Frequency: 0 Hz\n", '"Frequency" says 0 Hz; a frequency is above 0'),
+        ("Frequency;-5;Hz\n", "a frequency is above 0"),
+    ],
+)
+def test_set_points_that_no_test_has_are_refused(tmp_path, above, said):
+    with pytest.raises(InputError, match=said):
+        read(tmp_path, above + SWEEP)
+
+
 def test_frequency_above_a_temperature_sweep_is_read(tmp_path):
     rows = "".join(f"{t};{6 - 0.05 * t:.2f};1.0\n" for t in range(-20, 41, 2)).replace(".", ",")
     data = read(tmp_path, "Frequency: 10 Hz\nT [°C];E' [MPa];E'' [MPa]\n" + rows)
@@ -81,6 +95,11 @@ def test_sheets_named_by_their_temperature_are_isotherms(tmp_path):
     assert fitted.superposition.log10_a_T == pytest.approx([1.2, 0.6, 0.0, -0.6], abs=0.01)
     with pytest.raises(InputError, match="at which temperature"):
         fit_file(workbook(tmp_path, ["Run 20", "Run 30"]), Request(name="sheets", reading={"sheet": "*"}, replicas=0))
+
+
+def test_sheets_of_temperatures_that_no_test_has_are_refused(tmp_path):
+    with pytest.raises(InputError, match=r"\[-400 °C\]: the name of the sheet is a temperature; -160 to 250 degC"):
+        read_dma(workbook(tmp_path, ["-400 °C"]))
 
 
 def test_repeated_rows_are_named_as_what_they_are(tmp_path):
