@@ -53,6 +53,11 @@ def test_no_circle_of_imports():
     assert sorted(left) == []
 
 
+def test_no_file_is_longer_than_500_lines():
+    """A file holds one subject; what grows beyond is two."""
+    assert {name: n for name, text in SOURCES.items() if (n := text.count("\n")) > 500} == {}
+
+
 def test_quantities_end_in_models_and_line():
     at_home = ("conveyor.models", "conveyor.line", "conveyor.sizing.sizing_task", "conveyor.units")
     others = {name for name, text in SOURCES.items() if re.search(r"(?<!def )\bsi\(", text)}

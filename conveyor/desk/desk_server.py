@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import json
 import socket
 import time
 from collections.abc import Awaitable, Callable, Mapping
@@ -13,7 +12,6 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import Any, Final, TypeVar
-from urllib.parse import quote
 
 import uvicorn
 from starlette.applications import Starlette
@@ -35,6 +33,14 @@ from conveyor.desk.design_variant import TextChanges, command_line, field_errors
 from conveyor.desk.further_studies import offered_studies, study_part
 from conveyor.desk.report_files import REPORTS, report_bytes
 from conveyor.desk.request_guard import LOOPBACK, RequestGuard
+from conveyor.desk.request_values import (
+    file_answer,
+    request_data,
+    text_value,
+    units_value,
+    variant_changes,
+    variant_names,
+)
 from conveyor.desk.stop_signal import CalculationStopped, StopSignal
 from conveyor.desk.study_export import study_text
 from conveyor.desk.workbench import Workbench
@@ -136,8 +142,8 @@ class Desk:
 
     async def _form(self, request: Request) -> Response:
         """Fields of a file, its sliders and compounds."""
-        asked = await _request_data(request)
-        name = _text_value(asked, "file")
+        asked = await request_data(request)
+        name = text_value(asked, "file")
 
         def made(_: StopSignal) -> dict[str, Any]:
             of, rows = self.workbench.file(name), self.workbench.form(name)
@@ -162,10 +168,10 @@ class Desk:
 
     async def _answer(self, request: Request) -> Response:
         """Pieces of the page for a variant, and beside another one; errors by field."""
-        asked = await _request_data(request)
-        name, units, every = _text_value(asked, "file"), _units_value(asked), asked.get("every") is not False
-        changes, other = _variant_changes(asked, "changes"), _variant_changes(asked, "beside")
-        titles = _variant_names(asked)
+        asked = await request_data(request)
+        name, units, every = text_value(asked, "file"), units_value(asked), asked.get("every") is not False
+        changes, other = variant_changes(asked, "changes"), variant_changes(asked, "beside")
+        titles = variant_names(asked)
 
         def answered(stop: StopSignal) -> dict[str, Any]:
             begun = time.perf_counter()
@@ -190,8 +196,8 @@ class Desk:
 
     async def _result(self, request: Request) -> Response:
         """The figures of a variant as `conveyor power --json` gives them."""
-        asked = await _request_data(request)
-        name, changes = _text_value(asked, "file"), _variant_changes(asked, "changes") or {}
+        asked = await request_data(request)
+        name, changes = text_value(asked, "file"), variant_changes(asked, "changes") or {}
         made = await self._calculate(
             request,
             lambda stop: analysis_json(self.workbench.with_flooded_belt(self._assess(name, changes, None, stop))),
@@ -200,22 +206,22 @@ class Desk:
 
     async def _curves(self, request: Request) -> Response:
         """Power over the range of each slider."""
-        asked = await _request_data(request)
-        name, changes = _text_value(asked, "file"), _variant_changes(asked, "changes") or {}
+        asked = await request_data(request)
+        name, changes = text_value(asked, "file"), variant_changes(asked, "changes") or {}
         curves = await self._calculate(
             request,
             lambda stop: self.workbench.curves(name, changes, self._sliders(name, asked), stop),
             background=True,
         )
         own = self.workbench.file(name).conveyor.report.units
-        unit = display_unit("power", report_system(own, _units_value(asked)), large=True)
+        unit = display_unit("power", report_system(own, units_value(asked)), large=True)
         shown = [[(value, None if power is None else float(unit(power))) for value, power in curve] for curve in curves]
         return JSONResponse({"curves": shown, "unit": unit.sign})
 
     async def _passing(self, request: Request) -> Response:
         """Tell whether every check passes at the values of a slider."""
-        asked = await _request_data(request)
-        name, changes = _text_value(asked, "file"), _variant_changes(asked, "changes") or {}
+        asked = await request_data(request)
+        name, changes = text_value(asked, "file"), variant_changes(asked, "changes") or {}
 
         def made(stop: StopSignal) -> list[bool | None]:
             found = []
@@ -238,8 +244,8 @@ class Desk:
 
     async def _table(self, request: Request) -> Response:
         """Names of the tables and figures of a variant, or one of them."""
-        asked = await _request_data(request)
-        name, changes, units = _text_value(asked, "file"), _variant_changes(asked, "changes") or {}, _units_value(asked)
+        asked = await request_data(request)
+        name, changes, units = text_value(asked, "file"), variant_changes(asked, "changes") or {}, units_value(asked)
         key = asked.get("key")
 
         def made(stop: StopSignal) -> dict[str, Any]:
@@ -255,11 +261,11 @@ class Desk:
 
     async def _difference(self, request: Request) -> Response:
         """Lines of the file that saving changes."""
-        asked = await _request_data(request)
+        asked = await request_data(request)
         name, changes, target = (
-            _text_value(asked, "file"),
-            _variant_changes(asked, "changes") or {},
-            _text_value(asked, "target"),
+            text_value(asked, "file"),
+            variant_changes(asked, "changes") or {},
+            text_value(asked, "target"),
         )
         lines = await self._calculate(request, lambda _: self.workbench.difference(name, changes, target))
         of = self.workbench.file(name)
@@ -269,13 +275,13 @@ class Desk:
 
     async def _save(self, request: Request) -> Response:
         """Save a variant as a spec."""
-        asked = await _request_data(request)
+        asked = await request_data(request)
         name, changes, target = (
-            _text_value(asked, "file"),
-            _variant_changes(asked, "changes") or {},
-            _text_value(asked, "target"),
+            text_value(asked, "file"),
+            variant_changes(asked, "changes") or {},
+            text_value(asked, "target"),
         )
-        digest, overwrite = _text_value(asked, "digest"), asked.get("replace") is True
+        digest, overwrite = text_value(asked, "digest"), asked.get("replace") is True
         made = await self._calculate(
             request, lambda _: self.workbench.save(name, changes, target, digest, overwrite=overwrite)
         )
@@ -284,30 +290,30 @@ class Desk:
 
     async def _report(self, request: Request) -> Response:
         """Workbook, page or PDF of a variant, with its studies, as the command line writes it."""
-        asked = await _request_data(request)
-        name, changes, units = _text_value(asked, "file"), _variant_changes(asked, "changes") or {}, _units_value(asked)
-        kind = _text_value(asked, "kind")
+        asked = await request_data(request)
+        name, changes, units = text_value(asked, "file"), variant_changes(asked, "changes") or {}, units_value(asked)
+        kind = text_value(asked, "kind")
 
         def made(stop: StopSignal) -> bytes:
             line = self.workbench.variant(name, changes)
             return report_bytes(line, kind, report_system(line.report.units, units), stop.check)
 
         content = await self._calculate(request, made, seconds=MOST_STUDY_SECONDS)
-        return _file_answer(content, f"{Path(name).stem}{REPORTS[kind].ending}", REPORTS[kind].media_type)
+        return file_answer(content, f"{Path(name).stem}{REPORTS[kind].ending}", REPORTS[kind].media_type)
 
     async def _study(self, request: Request) -> Response:
         """A study file of the file and the variants of the page."""
-        asked = await _request_data(request)
-        name = _text_value(asked, "file")
-        variants = [made for key in ("changes", "beside") if (made := _variant_changes(asked, key)) is not None]
+        asked = await request_data(request)
+        name = text_value(asked, "file")
+        variants = [made for key in ("changes", "beside") if (made := variant_changes(asked, key)) is not None]
         text = study_text(self.workbench.file(name), self.workbench.form(name), variants)
-        return _file_answer(text.encode(), f"{Path(name).stem}-study.yaml", "application/yaml")
+        return file_answer(text.encode(), f"{Path(name).stem}-study.yaml", "application/yaml")
 
     async def _further(self, request: Request) -> Response:
         """Tables of a study that takes longer."""
-        asked = await _request_data(request)
-        name, changes, units = _text_value(asked, "file"), _variant_changes(asked, "changes") or {}, _units_value(asked)
-        key = _text_value(asked, "key")
+        asked = await request_data(request)
+        name, changes, units = text_value(asked, "file"), variant_changes(asked, "changes") or {}, units_value(asked)
+        key = text_value(asked, "key")
 
         def made(stop: StopSignal) -> Html:
             self._longest = stop
@@ -328,8 +334,8 @@ class Desk:
 
     async def _new(self, request: Request) -> Response:
         """Open a new spec of a kind."""
-        asked = await _request_data(request)
-        kind, units = _text_value(asked, "kind"), _units_value(asked)
+        asked = await request_data(request)
+        kind, units = text_value(asked, "kind"), units_value(asked)
         if kind not in KINDS:
             raise InputError(f"kind: {' or '.join(KINDS)}")
         name = f"{kind}.yaml"
@@ -366,53 +372,6 @@ def _answer_errors(answer: Callable[[Request], Awaitable[Response]]) -> Callable
 
 async def _page_file(_: Request, name: str) -> Response:
     return FileResponse(_PAGE / name)
-
-
-async def _request_data(request: Request) -> dict[str, Any]:
-    """JSON object of a request."""
-    try:
-        asked = json.loads(await request.body())
-    except (ValueError, RecursionError):
-        asked = None
-    if not isinstance(asked, dict):
-        raise InputError("expected a JSON object")
-    return asked
-
-
-def _text_value(asked: Mapping[str, Any], key: str) -> str:
-    value = asked.get(key)
-    if not isinstance(value, str):
-        raise InputError(f"{key}: expected text")
-    return value
-
-
-def _units_value(asked: Mapping[str, Any]) -> str | None:
-    value = asked.get("units")
-    return value if isinstance(value, str) and value else None
-
-
-def _variant_names(asked: Mapping[str, Any]) -> list[str]:
-    """Return the names of the first and of the second variant."""
-    given = asked.get("names")
-    if isinstance(given, list) and len(given) == 2 and all(isinstance(name, str) for name in given):
-        return [name.strip()[:60] or letter for name, letter in zip(given, "AB", strict=True)]
-    return ["A", "B"]
-
-
-def _variant_changes(asked: Mapping[str, Any], key: str) -> Any:
-    """Changes of a variant; {} for those of a page that has none, None without the variant."""
-    given = asked.get(key)
-    if given is None:
-        return {} if key == "changes" else None
-    if not isinstance(given, dict) or not all(text is None or isinstance(text, str) for text in given.values()):
-        raise InputError(f"{key}: expected texts by the path of their field")
-    return given
-
-
-def _file_answer(content: bytes, name: str, media_type: str) -> Response:
-    """Answer that the browser saves as a file."""
-    said = f"attachment; filename*=UTF-8''{quote(name)}"
-    return Response(content, media_type=media_type, headers={"content-disposition": said})
 
 
 @dataclass

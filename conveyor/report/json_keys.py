@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Final, Self, TypeAlias
 
-from conveyor.report.table_model import path_getter
+from conveyor.report.row_getters import path_getter
 
 SCHEMA_VERSION: Final = 1
 """Increased where a key goes or changes its meaning, not for a new key."""

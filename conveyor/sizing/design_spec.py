@@ -104,7 +104,7 @@ def series_drive_diameter(task: SizingTask, chosen: SelectedParts) -> float:
     """Diameter of the drive pulleys of the series [m], with room for the shafts of head and tail."""
     bends = len(TAKE_UP_WRAPS)
     ends = chosen.shafts[: -bends - 1] + chosen.shafts[-1:]
-    return max([task.drive_diameter(chosen.carcass), *map(task.pulley_around, ends)])
+    return max([task.pulleys.drive_diameter(chosen.carcass), *map(task.pulleys.pulley_around, ends)])
 
 
 def _field_text(task: SizingTask, value: float, unit: str, digits: int = 6) -> str:
@@ -135,7 +135,7 @@ def _all_pulleys(task: SizingTask, choice: DesignChoice, chosen: SelectedParts) 
             | ({"bearing_life": text(task.rules.roll_life)} if "bearing_rating" in items[place].fields else {})
             for place, placed in _pulley_places(choice.drives)
         ]
-    driven, bend = drive_diameter(task, chosen), task.bend_diameter(chosen.carcass)
+    driven, bend = drive_diameter(task, chosen), task.pulleys.bend_diameter(chosen.carcass)
     sizes = {"head": driven, "take-up": bend, "tail": driven if "tail" in choice.drives else bend}
     places = _pulley_places(choice.drives)
     width, shafts = choice.trough.width, chosen.shafts or (None,) * len(places)
@@ -162,8 +162,8 @@ def has_second_pulley(drives: DriveLayout) -> bool:
 
 def _pulley_fields(task: SizingTask, diameter: float, width: WidthSize, shaft: float | None) -> dict[str, Any]:
     """Spec fields of a pulley; without its shaft a usual one, whose hubs and bearings have no place yet."""
-    diameter = diameter if shaft is None else max(diameter, task.pulley_around(shaft))
-    bearings, hubs = task.shaft_distances(width)
+    diameter = diameter if shaft is None else max(diameter, task.pulleys.pulley_around(shaft))
+    bearings, hubs = task.pulleys.shaft_distances(width)
     placed = {
         "bearing_centres": _field_text(task, bearings, "mm"),
         "hub_centres": _field_text(task, hubs, "mm"),

@@ -242,7 +242,7 @@ class _Selection:
         """Listed pulleys of head, take-up and tail; none if they are of the series."""
         if isinstance(drive, float):
             return ()
-        least = pulley_group_diameter(self.chosen.carcass.least_pulley, group=self.task.bend_group)
+        least = pulley_group_diameter(self.chosen.carcass.least_pulley, group=self.task.pulleys.bend_group)
         return tuple(
             replace(drive, place=place) if place in self._alike else next(self._wide_enough(place, least, [place]))
             for place in _PLACES

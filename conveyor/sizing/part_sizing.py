@@ -286,13 +286,13 @@ def _required_shafts(
     """
     if before.listed is not None and before.listed.pulleys:
         return ()
-    bearings, hubs = task.shaft_distances(choice.trough.width)
+    bearings, hubs = task.pulleys.shaft_distances(choice.trough.width)
     least: dict[str, float] = {}
     for duty in (duty for one in loads for duty in one.pulley_duty):
         placed = replace(duty.pulley, bearing_centres=bearings, hub_centres=hubs, shaft_steel=SHAFT_STEEL)
         borne = replace(duty, pulley=placed).least_shaft or 0.0
         least[duty.pulley.name] = max(borne, least.get(duty.pulley.name, 0.0))
-    needed = tuple(map(task.shaft_diameter, least.values()))
+    needed = tuple(map(task.pulleys.shaft_diameter, least.values()))
     return tuple(map(max, needed, before.shafts)) if before.settling and before.shafts else needed
 
 

@@ -222,7 +222,7 @@ class _BeltSeries(NamedTuple):
             strengths,
             stiffnesses,
             np.array([[one.mass for one in row] for row in filled]),
-            np.array([[task.pulley_mass(one, 1.0) for one in row] for row in filled]),
+            np.array([[task.pulleys.pulley_mass(one, 1.0) for one in row] for row in filled]),
             np.array([[[task.worn_covers(one, addition) for addition in wear] for one in row] for row in filled]),
             np.array([len(each) - 1 for each in kinds]),
             np.array([each[-1].strength for each in kinds]),

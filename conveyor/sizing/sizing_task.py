@@ -9,26 +9,17 @@ from functools import cached_property
 from typing import Any, Final
 
 from conveyor.files import libraries
-from conveyor.laws.belt_strength import (
-    CEMA_PULLEYS,
-    PULLEY_DIAMETERS,
-    Group,
-    next_pulley_diameter,
-    pulley_group_diameter,
-)
 from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
 from conveyor.laws.loading import cross_section, filled_width, usable_width
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.preliminary_sizing import (
     LOADING_SPACING_SHARE,
-    PULLEY_MASS,
     least_width_for_lumps,
     normal_spacings,
     recommended_speed,
     standard_edge_distance,
     wear_addition,
 )
-from conveyor.laws.pulley import CEMA_SHAFTS, SHAFT_DIAMETERS, next_shaft_diameter
 from conveyor.laws.take_up import (
     PERMANENT_STRETCH_STEEL_CORD,
     PERMANENT_STRETCH_TEXTILE,
@@ -51,19 +42,10 @@ from conveyor.models.sizing import (
 )
 from conveyor.sizing.design_choice import CarcassClass, DesignChoice, RollSize, TroughSize, WidthSize
 from conveyor.sizing.listed_sizes import listed_carcasses, listed_rolls, motor_power
+from conveyor.sizing.pulley_sizes import PulleySizes
 from conveyor.units import Quantity, read_si, si
 
 _OVERLAND_LENGTH: Final = 1000.0  # [m], length from which spacings are those of overland belts; general knowledge
-
-
-_FACE_ALLOWANCE: Final = 0.1  # [m], ISO 1536 has more for wide belts; general knowledge, 0.1 to 0.2
-_FACE_ALLOWANCE_US: Final = 2.0 * 0.0254  # [m], CEMA drums, 3 in for wide belts; general knowledge
-
-
-_SHAFT_INSETS: Final = (0.075, 0.175)
-_SHAFT_INSETS_US: Final = (3.0 * 0.0254, 7.0 * 0.0254)
-"""Hubs inside the ends of a pulley's shell, and bearings outside of them [m]; general knowledge."""
-_PULLEY_OVER_SHAFT: Final = 2.0  # [-], room for the hubs and what clamps them; general knowledge
 
 
 _KEPT_FIELDS: Final = ("site", "material", "ambient", "operation", "calculation", "report")
@@ -262,15 +244,13 @@ class SizingTask:
         pulleys = self.duty.listed.items("pulleys")
         if pulleys:
             return tuple(sorted({read_si(item.fields["diameter"], "length") for item in pulleys}))
-        return tuple(CEMA_PULLEYS if self.duty.series == "US" else PULLEY_DIAMETERS)
+        return self.pulleys.series
 
     @property
     def face_allowance(self) -> float:
         """Face of a listed pulley beyond the belt's width, at least [m]; general knowledge without a rule."""
         given = self.rules.face_allowance
-        if given is not None:
-            return si(given)
-        return _FACE_ALLOWANCE_US if self.duty.series == "US" else _FACE_ALLOWANCE
+        return self.pulleys.face_allowance if given is None else si(given)
 
     @cached_property
     def spacings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -465,44 +445,14 @@ class SizingTask:
         top = _round_up_to_step(least + addition, step)
         return top, _round_up_to_step(max(least, top / 3.0), step)
 
-    def drive_diameter(self, carcass: CarcassClass) -> float:
-        """Diameter of a drive pulley [m]: the next of the series; beyond it the carcass's least."""
-        return self._pulley_diameter(carcass.least_pulley)
-
-    @property
-    def bend_group(self) -> Group:
-        """Group of tail and take-up pulleys: a belt that falls may bear its highest tension there."""
-        return "A" if math.fsum(rise for _, rise in self.sections) < 0.0 else "B"
-
-    def bend_diameter(self, carcass: CarcassClass) -> float:
-        """Diameter of tail, take-up and bend pulleys [m], likewise."""
-        return self._pulley_diameter(pulley_group_diameter(carcass.least_pulley, group=self.bend_group))
-
-    def _pulley_diameter(self, least: float) -> float:
-        series = CEMA_PULLEYS if self.duty.series == "US" else PULLEY_DIAMETERS
-        return next_pulley_diameter(least, series=series) if least <= series[-1] else least
-
-    def pulley_around(self, shaft: float) -> float:
-        """Diameter of the least pulley of the series that has room for a shaft [m]."""
-        return self._pulley_diameter(_PULLEY_OVER_SHAFT * shaft)
-
-    def shaft_diameter(self, least: float) -> float:
-        """Diameter of the next shaft of the series [m]."""
-        return next_shaft_diameter(least, series=CEMA_SHAFTS if self.duty.series == "US" else SHAFT_DIAMETERS)
-
-    def shaft_distances(self, width: WidthSize) -> tuple[float, float]:
-        """Usual distances of a pulley's bearings and hubs [m]; its shell is as long as the flat roll of the width."""
-        inside, outside = _SHAFT_INSETS_US if self.duty.series == "US" else _SHAFT_INSETS
-        return width.one + 2.0 * outside, width.one - 2.0 * inside
+    @cached_property
+    def pulleys(self) -> PulleySizes:
+        """Pulleys and shafts of its series."""
+        return PulleySizes(us=self.duty.series == "US", falls=math.fsum(rise for _, rise in self.sections) < 0.0)
 
     def colder(self, conveyor: Conveyor) -> Conveyor:
         """The conveyor with its covers at the coldest temperature."""
         return conveyor.replace(ambient=conveyor.ambient.replace(belt_temperature=self.duty.coldest))
-
-    def pulley_mass(self, carcass: CarcassClass, width: float) -> float:
-        """Mass of all pulleys together [kg]: head, take-up with its two bends, and tail."""
-        sizes = (self.drive_diameter(carcass), *(4 * (self.bend_diameter(carcass),)))
-        return math.fsum(PULLEY_MASS * size**2 * width for size in sizes)
 
 
 def _carcass_class(kind: str, row: CarcassRow) -> CarcassClass:

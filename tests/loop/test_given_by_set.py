@@ -56,7 +56,7 @@ def test_a_section_with_its_own_spacing_has_the_same_sets():
 
 
 def test_a_reduced_mass_alone_stands_for_all_and_says_so():
-    from conveyor.remarks.result_warnings import _mass_warnings
+    from conveyor.remarks.part_warnings import _mass_warnings
 
     conveyor = from_data(DATA | {"idlers": idlers(reduced_mass="12 kg")})
     assert closed(conveyor).forces.main == pytest.approx(balanced().forces.main, rel=ROUNDING)

@@ -14,7 +14,7 @@ from conveyor.laws.loading.pipe_strip import _lapped_forces
 from conveyor.line.set_loads import FormedPipe
 from conveyor.models.fields import with_fields
 from conveyor.pipeline import calculate
-from conveyor.remarks.result_warnings import roll_warnings
+from conveyor.remarks.part_warnings import part_warnings
 from conveyor.report.tables.study_tables import flooded_belt as flooded_table
 from conveyor.studies.flooding import flooded_belt
 from conveyor.studies.input_ranges import analyse_ranges
@@ -82,9 +82,9 @@ def test_a_belt_too_soft_for_its_pipe_is_told(spec):
         forces = _lapped_forces(0.73 / radius, share * least * 1.2 / radius**2, (0.0, -weight), 0.0, 0.5)
         assert (min(forces) > 0.0) is all_bear
     for stiffness, told in (("8.3 N*m", False), ("7 N*m", True)):
-        found = roll_warnings(calculate(with_fields(spec, {"belt.transverse_stiffness": stiffness})))
+        found = part_warnings(calculate(with_fields(spec, {"belt.transverse_stiffness": stiffness})))
         assert any("bears on all six rolls from" in line.text() for line in found) is told
-    narrow = roll_warnings(calculate(with_fields(spec, {"belt.width": "1300 mm"})))
+    narrow = part_warnings(calculate(with_fields(spec, {"belt.width": "1300 mm"})))
     assert any("leaves a roll untouched" in line.text() for line in narrow)
 
 

@@ -10,7 +10,7 @@ from conveyor.models import Belt, BulkMaterial, Roll
 from conveyor.models.library_items import merge_fields, without_entry_fields
 from conveyor.pipeline import calculate
 from conveyor.remarks.assumptions import roll_assumptions
-from conveyor.remarks.result_warnings import roll_warnings
+from conveyor.remarks.part_warnings import part_warnings
 from conveyor.report.tables.inputs import input_rows
 from conveyor.spec import from_data
 from conveyor.units import is_quantity, quantity, si, text
@@ -179,4 +179,4 @@ def test_a_listed_mass_under_other_covers_is_warned_of(conveyor_data):
 
 
 def _library_remarks(line):
-    return [said.text() for said in roll_warnings(calculate(line))]
+    return [said.text() for said in part_warnings(calculate(line))]

@@ -133,9 +133,11 @@ def test_no_weaker_class_and_no_smaller_motor_would_do(small, sized):
 def test_pulleys_weigh_by_width_and_the_square_of_their_diameter(small, sized):
     """1750 kg of a pulley of 1 m in diameter and width, with its shaft: head, take-up, its two bends, and tail."""
     task, carcass = SizingTask(small), sized.best.chosen.carcass
-    head, bend = task.drive_diameter(carcass), task.bend_diameter(carcass)
+    head, bend = task.pulleys.drive_diameter(carcass), task.pulleys.bend_diameter(carcass)
     assert bend < head
-    assert task.pulley_mass(carcass, 0.8) == pytest.approx(1750.0 * 0.8 * (head * head + 4.0 * bend * bend), rel=1e-12)
+    assert task.pulleys.pulley_mass(carcass, 0.8) == pytest.approx(
+        1750.0 * 0.8 * (head * head + 4.0 * bend * bend), rel=1e-12
+    )
 
 
 def test_the_take_up_hangs_between_two_bends(sized):
@@ -169,7 +171,7 @@ def test_a_pulley_has_room_for_the_hubs_of_its_shaft(small, sized):
     """On the least belt a thick shaft takes a larger pulley, a driven one with its gear ratio and torque."""
     task, best = SizingTask(small), sized.best
     thick = replace(best.chosen, shafts=(0.18,) * 5)
-    assert task.drive_diameter(best.chosen.carcass) < 0.36
+    assert task.pulleys.drive_diameter(best.chosen.carcass) < 0.36
     assert drive_diameter(task, thick) == pytest.approx(0.4)  # of ISO 3684: 0.315, 0.4
     assert {si(pulley.diameter) for pulley in design_spec(task, best.choice, thick, "t").route.pulleys} == {0.4}
 

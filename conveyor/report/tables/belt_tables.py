@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.loop.ties import first_maximum
-from conveyor.report.table_model import Column, Figure, Table, extreme_getter, figure_table
+from conveyor.report.row_getters import extreme_getter
+from conveyor.report.table_model import Column, Figure, Table, figure_table
 from conveyor.studies.load_cases import Load
 
 

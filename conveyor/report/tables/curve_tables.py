@@ -9,7 +9,8 @@ from typing import Any, Final, TypeVar
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.loop.horizontal_curve_duty import HorizontalCurveCheck
-from conveyor.report.table_model import Column, Table, extreme_getter
+from conveyor.report.row_getters import extreme_getter
+from conveyor.report.table_model import Column, Table
 from conveyor.studies.load_cases import Load
 from conveyor.units import System
 

@@ -9,7 +9,8 @@ from functools import partial
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.drives import GEAR_SERVICE, next_preferred_number
 from conveyor.loop.drive_duty import DriveDuty, coasting_flywheel
-from conveyor.report.table_model import Column, Figure, PagePlacement, Table, extreme_getter, figure_table
+from conveyor.report.row_getters import extreme_getter
+from conveyor.report.table_model import Column, Figure, PagePlacement, Table, figure_table
 from conveyor.studies.load_cases import Load
 
 

@@ -11,7 +11,8 @@ from conveyor.line.roll_lives import roll_life
 from conveyor.line.stretches import Strand
 from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.ties import first_maximum
-from conveyor.report.table_model import Column, Table, extreme_getter
+from conveyor.report.row_getters import extreme_getter
+from conveyor.report.table_model import Column, Table
 from conveyor.studies.load_cases import Load
 from conveyor.units.presentation import display_unit
 

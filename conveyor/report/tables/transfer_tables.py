@@ -12,7 +12,8 @@ from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.transfer import CLEANER_EFFICIENCY
 from conveyor.report.matplotlib_settings import own_settings
 from conveyor.report.plots import curve_colour, finish_figure, stacked_axes
-from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Drawing, Figure, Table, figure_table, path_getter
+from conveyor.report.row_getters import path_getter
+from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Drawing, Figure, Table, figure_table
 from conveyor.units import System
 from conveyor.units.presentation import display_unit
 from conveyor.units.sentences import percent
