@@ -167,7 +167,8 @@ def build_workbook(
             values = {} if live is None else live
             page = SheetWriter(book.create_sheet(sheet_name(title)), contents, stem, placed, values, name=title)
             fills.get(title, sheets.stacked_sheet)(page)
-            set_up_print(page.sheet, header, paper=about.paper, starts=page.print_only())
+            starts, blocks = page.print_only()
+            set_up_print(page.sheet, header, paper=about.paper, starts=starts, blocks=blocks)
     if front:  # its charts refer to tables of the other sheets
         summary_sheet.write_summary(SheetWriter(first, contents, stem), placed)
         set_up_print(first, header, paper=about.paper, fitted=True)

@@ -63,7 +63,13 @@ def paragraph_width(sheet: Worksheet, columns: range, paper: str) -> float:
 
 
 def set_up_print(
-    sheet: Worksheet, name: str, *, paper: str = "A4", starts: Sequence[int] = (1,), fitted: bool = False
+    sheet: Worksheet,
+    name: str,
+    *,
+    paper: str = "A4",
+    starts: Sequence[int] = (1,),
+    blocks: Sequence[range] = (),
+    fitted: bool = False,
 ) -> None:
     """Set up printing with letters of at least 8 pt, with the project's name as header.
 
@@ -80,6 +86,8 @@ def set_up_print(
         Size of the paper.
     starts : sequence of int
         First columns of the tables that stand beside each other.
+    blocks : sequence of range
+        Rows of the tables that stand below each other: none is cut by the end of a page that it fits on.
     fitted : bool
         Whether columns on one page stay on it in any font, even if a program then takes no notice of breaks.
     """
@@ -90,7 +98,7 @@ def set_up_print(
     sheet.page_setup.orientation = "portrait" if portrait else "landscape"
     sheet.page_setup.paperSize = sheet.PAPERSIZE_LETTER if paper == "Letter" else sheet.PAPERSIZE_A4
     height = page_room(paper, portrait=portrait)[1]
-    for row in _cut_charts(sheet, height):
+    for row in _cut_blocks(sheet, height, blocks):
         sheet.row_breaks.append(Break(id=row - 1))
     parted = bool(sheet.row_breaks.brk)
     if parts[portrait] or (parted and not fitted):  # Excel takes no notice of breaks where pages are fitted
@@ -118,13 +126,16 @@ def rows_height(sheet: Worksheet, rows: Iterable[int]) -> float:
     return sum(_ROW_HEIGHT if look.height is None else look.height for look in looks if not look.hidden)
 
 
-def _cut_charts(sheet: Worksheet, height: float) -> Iterator[int]:
-    """Rows of charts that the end of a page of a height [pt] would cut."""
-    charts = {coordinate_to_tuple(chart.anchor)[0]: chart.height * _POINTS for chart in vars(sheet)["_charts"]}
+def _cut_blocks(sheet: Worksheet, height: float, blocks: Sequence[range]) -> Iterator[int]:
+    """First rows of tables and charts that the end of a page of a height [pt] would cut."""
+    heights = {rows.start: rows_height(sheet, rows) for rows in blocks}
+    for chart in vars(sheet)["_charts"]:
+        row = coordinate_to_tuple(chart.anchor)[0]
+        heights[row] = max(heights.get(row, 0.0), chart.height * _POINTS)
     top = 1
-    for row in sorted(charts):
+    for row in sorted(heights):
         above = rows_height(sheet, range(top, row)) % height
-        if above + charts[row] > height:
+        if above + heights[row] > height >= heights[row]:
             yield row
             top = row
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Any, Final
 
 from openpyxl.cell.cell import Cell, MergedCell
@@ -239,14 +240,17 @@ class SheetWriter:
         cell.alignment = Alignment(wrap_text=True, vertical="top")
         return rows
 
-    def print_only(self) -> tuple[int, ...]:
-        """Set the print area, or hide a sheet with nothing to print; return the first columns of its tables."""
+    def print_only(self) -> tuple[tuple[int, ...], list[range]]:
+        """Set the print area, or hide a sheet with nothing to print.
+
+        Returns the first columns of its tables, and the rows of each table of the first stack with its note.
+        """
         here = {key: place for key, (sheet, place) in self.placed.items() if sheet is self.sheet}
         corners = [coordinate_to_tuple(chart.anchor) for chart in vars(self.sheet)["_charts"]]
         printed = {key: place for key, place in here.items() if self.contents[key].printed}
         if here and not printed and not corners:
             self.sheet.sheet_state = "hidden"
-            return (1,)
+            return (1,), []
         if len(printed) == 1 and not self.sheet.print_title_rows:  # a long table has its head on every page
             (place,) = printed.values()
             self.sheet.print_title_rows = f"{place.header - 1}:{place.header}"
@@ -258,7 +262,9 @@ class SheetWriter:
         if len(printed) < len(here) or columns:
             span = self._columns_of_width(TEXT_WIDTH, range(1, max([*columns, 1]) + 1))
             self.sheet.print_area = f"A1:{get_column_letter(span[-1])}{max(1, last)}"
-        return tuple(sorted({place.first_column for place in printed.values()}))
+        tops = sorted(place.header - 1 for place in printed.values() if place.first_column == 1)
+        blocks = [range(max(1, row), end - 1) for row, end in pairwise((*tops, last + 2))]
+        return tuple(sorted({place.first_column for place in printed.values()})), blocks
 
     def _columns_of_width(self, width: float, columns: range) -> range:
         """Columns extended to the right until they have a width [characters]."""

@@ -20,6 +20,8 @@ from conveyor.report.sheet_writer import SheetWriter, define_name
 from conveyor.report.table_model import FAILS
 from conveyor.units.presentation import display_unit
 
+_RUBBER_COLUMNS = (22.0, 24.0, 14.0)
+"""Widths of strand, compound and kind [characters]: with them the table of the rubber is as wide as a page across."""
 _NARROW_CHART = 12.0  # width of a chart on a page held upright [cm]
 _ONE_PAGE_ROWS = 40  # rows beyond which a table to fill in goes on on new sheets of paper
 _MOST_BARS = 24
@@ -93,7 +95,6 @@ def rubber_sheet(page: SheetWriter) -> None:
     """Excitation bands, data and moduli charts of every compound; tables of curves are not printed."""
     sheet, contents = page.sheet, page.contents
     row = page.place("rubber", 1, widest=30).last + 3
-    sheet.column_dimensions["A"].width = 24
     strands = [strand for strand in ("carry", "return") if f"known_{strand}" in contents]
     for strand in strands:
         known = contents[f"known_{strand}"]
@@ -110,6 +111,8 @@ def rubber_sheet(page: SheetWriter) -> None:
             define_name(sheet, "table_moduli_return", moduli.cells)
             define_name(sheet, "table_prony_return", places[f"prony_{strand}"].cells)
     page.rest(max(place.last for place in places.values()) + 3, but=("moduli_return", "prony_return"))
+    for column, width in zip("ABC", _RUBBER_COLUMNS, strict=True):
+        sheet.column_dimensions[column].width = width
 
 
 def _write_compound(sheet: Worksheet, row: int, heading: str, facts: Sequence[tuple[str, str]]) -> int:

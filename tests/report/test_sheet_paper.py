@@ -89,6 +89,30 @@ def test_a_page_that_ends_in_a_chart_ends_before_it():
     assert CELL * sheet.page_setup.scale / 100.0 >= PAPER
 
 
+def test_a_table_that_fits_a_page_is_on_one():
+    """990 pt a page, 62 rows of 15.75: the second table would begin on the first page, the third is longer than one."""
+    sheet = Workbook().worksheets[0]
+    sheet["A150"] = "last"
+    set_up_print(sheet, "three tables", blocks=[range(1, 41), range(42, 71), range(72, 151)])
+    assert [one.id for one in sheet.row_breaks.brk] == [41]
+    assert sheet.page_setup.scale / 100.0 >= PAPER / CELL
+
+
+def test_no_table_of_a_workbook_is_cut_that_fits_a_page(books):
+    """Tables one below the other, by their headings: between two ends of pages each has its place."""
+    (results,) = (book["Results"] for book in books[1:2])
+    ends = [one.id for one in results.row_breaks.brk]
+    heading = next(cell.row for cell in results["A"] if str(cell.value).startswith("What if"))
+    assert ends == [heading - 1]
+
+
+def test_the_rubber_is_on_pages_of_one_width(books):
+    for book in (book for book in books if "Rubber" in book.sheetnames):
+        sheet = book["Rubber"]
+        assert list(sheet.col_breaks.brk) == []
+        assert sheet.page_setup.orientation == "landscape"
+
+
 @pytest.mark.parametrize(
     ("columns", "orientation", "pages"), [(10, "portrait", 1), (14, "landscape", 1), (30, "landscape", 3)]
 )
