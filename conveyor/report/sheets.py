@@ -20,8 +20,8 @@ from conveyor.report.sheet_writer import SheetWriter, define_name
 from conveyor.report.table_model import FAILS
 from conveyor.units.presentation import display_unit
 
-_RUBBER_COLUMNS = (22.0, 24.0, 14.0)
-"""Widths of strand, compound and kind [characters]: with them the table of the rubber is as wide as a page across."""
+_RUBBER_COLUMNS = (23.0, 24.0, 13.0, 13.0, 14.0, 15.0, 15.0, 11.0, 12.0, 12.0, 14.0, 12.0)
+"""Widths of the printed columns [characters]: with them the table of the rubber is as wide as a page across."""
 _NARROW_CHART = 12.0  # width of a chart on a page held upright [cm]
 _ONE_PAGE_ROWS = 40  # rows beyond which a table to fill in goes on on new sheets of paper
 _MOST_BARS = 24
@@ -111,8 +111,8 @@ def rubber_sheet(page: SheetWriter) -> None:
             define_name(sheet, "table_moduli_return", moduli.cells)
             define_name(sheet, "table_prony_return", places[f"prony_{strand}"].cells)
     page.rest(max(place.last for place in places.values()) + 3, but=("moduli_return", "prony_return"))
-    for column, width in zip("ABC", _RUBBER_COLUMNS, strict=True):
-        sheet.column_dimensions[column].width = width
+    for column, width in enumerate(_RUBBER_COLUMNS, start=1):
+        sheet.column_dimensions[get_column_letter(column)].width = width
 
 
 def _write_compound(sheet: Worksheet, row: int, heading: str, facts: Sequence[tuple[str, str]]) -> int:
@@ -121,7 +121,7 @@ def _write_compound(sheet: Worksheet, row: int, heading: str, facts: Sequence[tu
     for name, value in facts:
         row += 1
         write_value(sheet.cell(row, 1), name, GREY)
-        sheet.cell(row, 1).alignment = Alignment(vertical="top")
+        sheet.cell(row, 1).alignment = Alignment(vertical="top", wrap_text=True)
         _write_across(sheet, row, 2, value, columns=8)
     return row + 2
 

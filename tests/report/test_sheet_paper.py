@@ -106,8 +106,12 @@ def test_no_table_of_a_workbook_is_cut_that_fits_a_page(books):
     assert ends == [heading - 1]
 
 
-def test_the_rubber_is_on_pages_of_one_width(books):
-    for book in (book for book in books if "Rubber" in book.sheetnames):
+def test_the_rubber_is_on_pages_of_one_width(books, tmp_path):
+    line = conveyor.load(SPECS / "overland.yaml")
+    letter = line.replace(report=line.report.replace(paper="Letter"))
+    conveyor.analyse(letter).to_excel(tmp_path / "letter.xlsx")
+    every = [*books, openpyxl.load_workbook(tmp_path / "letter.xlsx")]
+    for book in (book for book in every if "Rubber" in book.sheetnames):
         sheet = book["Rubber"]
         assert list(sheet.col_breaks.brk) == []
         assert sheet.page_setup.orientation == "landscape"
