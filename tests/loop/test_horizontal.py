@@ -312,6 +312,18 @@ def test_a_flat_strand_drifts_along_its_curve():
         assert ahead == pytest.approx(two.inside - one.inside - other.outside, rel=1e-6)
 
 
+def test_a_flat_set_is_dragged_by_the_part_of_its_guiding_force_along_the_belt():
+    """W cos β κ(s/L) sin(s/L), s/L the angle of the course and the sets without skew."""
+    (bend,) = of_return(flat({"length": "60 m"}))
+    turn = bend.turn
+    weight = math.fsum(load.force for load in turn.weights)
+    course = turn.drift / 60.0
+    assert 0.0 < course < math.radians(3.0)
+    held = 0.35 * (1.0 - (1.0 - course / math.radians(3.0)) ** 3)
+    asked = weight * math.cos(math.radians(1.5)) * held * math.sin(course)
+    assert turn.guidance() == pytest.approx(asked, rel=1e-9)
+
+
 def test_a_flat_strand_falls_off_a_long_curve():
     with pytest.raises(NoSolutionError, match=r"runs off its rolls to the inside .* more banking or a trough"):
         flat({"horizontal_radius": "600 m", "return_banking": "0 deg", "carry_banking": "6 deg"})
