@@ -24,6 +24,7 @@ from conveyor.laws.pulley import CEMA_SHAFTS, next_shaft_diameter
 from conveyor.laws.roll_life import rating_life_hours
 from conveyor.models.prices import Prices
 from conveyor.models.sizing import SizingDuty
+from conveyor.report.tables.sizing_tables import design_table
 from conveyor.sizing import size_conveyor
 from conveyor.sizing.design_choice import SelectedParts
 from conveyor.sizing.design_spec import design_spec, drive_diameter
@@ -373,6 +374,14 @@ def test_a_compound_that_is_not_on_the_shelf_is_written_out(sized):
     written = dump_given(line.replace(belt=line.belt.replace(top_cover=own)))
     assert written.count("compound: standard-cover") == 1
     assert "density: 1200 kg/m^3" in written
+
+
+def test_designs_are_compared_with_the_cheapest(sized):
+    rows = design_table(sized).plain()
+    assert len(rows) > 1
+    for row in rows:
+        assert row["over_the_best"] == pytest.approx(row["cost_per_year"] / rows[0]["cost_per_year"] - 1.0, abs=1e-12)
+    assert [row["over_the_best"] for row in rows] == sorted(row["over_the_best"] for row in rows)
 
 
 def test_the_command_tells_programs_and_writes_reports(tmp_path):
