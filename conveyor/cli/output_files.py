@@ -160,10 +160,10 @@ class Outputs:
             from conveyor.report import pdf
 
             with atomic_write.name_write_errors(path):
-                made = pdf.page_pdf(page(on_paper=True))
+                made = pdf.page_pdf(page(on_paper=True), contents.document.paper)
             self.add("PDF", path, {path: made})
         else:
-            self.add("page", path, {path: page().encode()})
+            self.add("page", path, {path: str(page()).encode()})
 
     def figure(self, figure: Figure, path: Path) -> None:
         """Make the file of a figure."""

@@ -153,7 +153,7 @@ class ContactSolution:
         if self._found is not None:
             rows += [(name, f"{getattr(self, name):.8g}") for name in _FIGURES]
             rows.append(("patches", "; ".join(f"{left:.6g} to {right:.6g}" for left, right in self.patches)))
-        return name_value_table("ContactSolution, lengths over R", rows)
+        return str(name_value_table("ContactSolution, lengths over R", rows))
 
     @property
     def friction(self) -> float:

@@ -21,7 +21,7 @@ from conveyor.report.line_drawings import (
 from conveyor.report.merged_notes import NOTE_HEADINGS, sort_notes
 from conveyor.report.page_elements import bullet_list, figure_list, table_html
 from conveyor.report.set_outline import set_outlines
-from conveyor.report.svg import figure_svg
+from conveyor.report.svg import figure_svg, stand_alone_svg
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Figure, Table
 from conveyor.report.tables.analysis_contents import TABLES, AnalysisTables, analysis_drawings
 from conveyor.text.markup import Html, element, join_html
@@ -92,7 +92,7 @@ def answer_parts(shown: NamedAssessment, beside: NamedAssessment | None = None) 
         "sets": set_part(shown.assessment),
         "checks": check_part(tables["checks"], system),
         "notes": note_part(tables),
-        "compared": Html("") if beside is None else compared_part(*sorted((shown, beside), key=_rank_of)),
+        "compared": Html() if beside is None else compared_part(*sorted((shown, beside), key=_rank_of)),
     }
     if beside is not None:
         parts["verdict_beside"] = verdict_part(beside.tables)
@@ -197,7 +197,7 @@ def share_part(tables: Mapping[str, Table], system: System) -> Html:
         if (force := columns["force"](row)) and (share := columns["share_of_total"](row)) is not None
     ]
     if not rows:
-        return Html("")
+        return Html()
     label = "Breakdown of the effective tension: " + ", ".join(
         f"{name} {unit.said(force, 3)}" for name, force, _ in rows
     )
@@ -317,9 +317,7 @@ def named_figure(assessment: Assessment, key: str) -> Html | None:
     drawing = next((one for one in analysis_drawings(assessment) if key == f"{_FIGURE}{one.name}"), None)
     if drawing is None:
         return None
-    drawn = figure_svg(drawing.draw(), drawing.name, drawing.caption)
-    if "xmlns=" not in drawn[: drawn.index(">")]:
-        drawn = Html(drawn.replace("<svg", '<svg xmlns="http://www.w3.org/2000/svg"', 1))
+    drawn = stand_alone_svg(figure_svg(drawing.draw(), drawing.name, drawing.caption))
     source = f"data:image/svg+xml;base64,{base64.b64encode(drawn.encode()).decode()}"
     return element("figure", element("img", src=source, alt=drawing.caption), element("figcaption", drawing.caption))
 

@@ -48,7 +48,6 @@ from conveyor.errors import ConveyorError, InputError
 from conveyor.files.output_marks import package_version
 from conveyor.report.tables.result_schema import analysis_json
 from conveyor.starter import KINDS, starter_text
-from conveyor.text.markup import Html
 from conveyor.units.presentation import display_unit
 from conveyor.units.unit_systems import SYSTEMS, report_system
 
@@ -188,7 +187,8 @@ class Desk:
                     problem = self._errors(error)
             parts = (answer_parts if every else own_load_parts)(shown, beside)
             return {
-                "parts": parts, "every": every, "seconds": round(time.perf_counter() - begun, 4), "beside": problem,
+                "parts": {key: str(part) for key, part in parts.items()},
+                "every": every, "seconds": round(time.perf_counter() - begun, 4), "beside": problem,
                 "command": command_line(name, changes), "digest": self.workbench.file(name).digest,
             }  # fmt: skip
 
@@ -255,7 +255,7 @@ class Desk:
             shown = named_figure(of, key) or named_table(of, key)
             if shown is None:
                 raise InputError(f"{key}: no table or figure of this conveyor")
-            return {"table": shown}
+            return {"table": str(shown)}
 
         return JSONResponse(await self._calculate(request, made))
 
@@ -315,9 +315,9 @@ class Desk:
         name, changes, units = text_value(asked, "file"), variant_changes(asked, "changes") or {}, units_value(asked)
         key = text_value(asked, "key")
 
-        def made(stop: StopSignal) -> Html:
+        def made(stop: StopSignal) -> str:
             self._longest = stop
-            return study_part(self._assess(name, changes, units, stop), key, stop.check)
+            return str(study_part(self._assess(name, changes, units, stop), key, stop.check))
 
         return JSONResponse({"part": await self._calculate(request, made, background=True, seconds=MOST_STUDY_SECONDS)})
 

@@ -66,4 +66,4 @@ def report_bytes(conveyor: Conveyor, kind: str, system: System, progress: Callab
             raise InputError("too long for one workbook; conveyor power -o writes the long tables beside it")
         return bytes(files[path])
     page = html.build_page(contents, on_paper=kind == "pdf")
-    return bytes(pdf.page_pdf(page)) if kind == "pdf" else page.encode()
+    return bytes(pdf.page_pdf(page, contents.document.paper)) if kind == "pdf" else str(page).encode()

@@ -12,8 +12,15 @@ from conveyor.fitting.fitted_compound import FittedCompound
 from conveyor.fitting.quality_figures import fit_figures
 from conveyor.languages.translator import Translator
 from conveyor.models.report import Paper
-from conveyor.report.page_elements import PagePart, bullet_list, fact_list, page_html, table_html
-from conveyor.report.page_elements import verdict_mark as mark
+from conveyor.report.page_elements import (
+    PagePart,
+    bullet_list,
+    fact_list,
+    page_html,
+    table_html,
+    verdict_counts,
+    verdict_mark,
+)
 from conveyor.report.svg import captioned_drawing, figure_svg
 from conveyor.report.table_model import PagePlacement
 from conveyor.report.translated_page import translate_page
@@ -48,7 +55,7 @@ def build_page(
         Translates its texts.
     """
     known = fit_tables.document_fields(fitted, document)
-    said = [(name, known.get(name, Html("&nbsp;"))) for name in fit_tables.DOCUMENT_FIELDS]
+    said = [(name, known.get(name, "\xa0")) for name in fit_tables.DOCUMENT_FIELDS]
     compound = fitted.compound
     *others, errors, curve = [
         captioned_drawing(figure_svg(made, f"fit-{name}", caption, on_paper=on_paper, words=words), caption)
@@ -71,10 +78,9 @@ def build_page(
 
 def _verdict_sheet(fitted: FittedCompound, criteria: Sequence[Criterion], drawn: Sequence[Html]) -> Html:
     """First sheet: verdict, facts, criteria, the curves that are signed for, and signature lines."""
-    count = {word: sum(one.verdict == word for one in criteria) for word in ("pass", "FAIL", "not checked")}
-    counted = join_html(part for word, n in count.items() if n for part in (f"{n} ", mark(word), Html("&ensp;")))
+    counted = verdict_counts(one.verdict for one in criteria)
     word = "pass" if is_accepted(tuple(criteria)) else "FAIL"
-    line = element("p", element("strong", "Master curve: "), mark(word), Html("&ensp; Criteria: "), counted)
+    line = element("p", element("strong", "Master curve: "), verdict_mark(word), "\u2002 Criteria: ", counted)
     caption = "Every criterion, and what it requires"
     shown = table_html(fit_tables.criteria_table(criteria).on_page(PagePlacement("verdict", caption)), caption)
     names = ("measured by, date", "approved by, date")

@@ -303,7 +303,7 @@ class Model(BaseModel):
         """Field list for notebooks, as entered."""
         from conveyor.text.markup import name_value_table
 
-        return name_value_table(type(self).__name__, self.as_data().items())
+        return str(name_value_table(type(self).__name__, self.as_data().items()))
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the given fields as plain data: pint quantities do not survive another process's registry."""

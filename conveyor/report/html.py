@@ -21,7 +21,7 @@ from conveyor.report.page_elements import (
     key_figure_tiles,
     page_html,
     table_html,
-    verdict_mark,
+    verdict_counts,
 )
 from conveyor.report.svg import captioned_drawing, figure_svg
 from conveyor.report.table_model import Contents, Drawing, Table
@@ -56,7 +56,7 @@ def write_page(contents: Contents, path: Path) -> Path:
     if path.suffix.lower() not in _ENDINGS:
         raise InputError(f'{path}: a page\'s name ends in .html, got "{path.suffix}"')
     check_writable(path)
-    save_files({path: build_page(contents).encode()})
+    save_files({path: str(build_page(contents)).encode()})
     return path
 
 
@@ -66,7 +66,7 @@ def build_page(contents: Contents, *, on_paper: bool = False) -> Html:
     made = f"conveyor {package_version('conveyor')}, {date.today().isoformat()}"
     if about.fingerprint:
         made += f", spec SHA-256 {about.fingerprint[:16]}"
-    document = fact_list(about.said.items(), "facts document") if about.said else Html("")
+    document = fact_list(about.said.items(), "facts document") if about.said else Html()
     parts = [part for named in contents.page if (part := _page_part(contents, *named, on_paper=on_paper)).content]
     kind, top = f"{about.kind}, {date.today().isoformat()}", join_html([document, _page_top(contents)])
     page = page_html(about.title, kind, top, parts, made, paper=about.paper)
@@ -123,10 +123,8 @@ def _page_drawing(drawing: Drawing, words: Translator | None, *, on_paper: bool)
 
 def _check_counts(contents: Contents) -> tuple[Html, int]:
     """Number of checks by verdict, and of those that fail."""
-    checks = contents["checks"].rows
-    count = {word: sum(check.verdict == word for check in checks) for word in ("pass", "FAIL", "not checked")}
-    counted = (part for word, n in count.items() if n for part in (f"{n} ", verdict_mark(word), Html("&ensp;")))
-    return join_html(["Checks: ", *counted]), count["FAIL"]
+    verdicts = [check.verdict for check in contents["checks"].rows]
+    return join_html(["Checks: ", verdict_counts(verdicts)]), verdicts.count("FAIL")
 
 
 def _verdict_part(contents: Contents) -> Html:
@@ -137,7 +135,7 @@ def _verdict_part(contents: Contents) -> Html:
     content = [element("p", says, class_=f"stands {'fail' if failing else 'pass'}"), element("p", counted)]
     if figures := contents.figures_for("tile"):
         content.append(key_figure_tiles(figures, contents.system))
-    return join_html([*content, _warning_lists(contents) if contents.lines("warning") else Html("")])
+    return join_html([*content, _warning_lists(contents) if contents.lines("warning") else Html()])
 
 
 def _key_figures(contents: Contents) -> Html:

@@ -8,13 +8,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from conveyor.report.set_outline import Outline, SetOutline
 from conveyor.report.table_model import Column, Table
-from conveyor.text.markup import Html, element, join_html
+from conveyor.text.markup import Html, element
 from conveyor.units import System
 from conveyor.units.presentation import Unit, display_unit, format_number
 
@@ -144,7 +144,7 @@ class LineChart:
         named = [(line.name, _line_sample(line)) for line in self.lines if line.name]
         named += [(mark.name, _mark_sample(mark)) for mark in self.marks]
         if not named:
-            return Html("")
+            return Html()
         return element("span", *(element("span", sample, name, class_="key") for name, sample in named), class_="keys")
 
 
@@ -446,5 +446,5 @@ def _mark_sample(mark: ChartMark) -> Html:
     return _small_svg(_DRAW[mark.shape](12.0, 9.0 if mark.shape == "triangle" else 5.0, mark.style))
 
 
-def _small_svg(*content: Any) -> Html:
-    return element("svg", join_html(content), viewBox="0 0 24 10", width="24", height="10", aria_hidden="true")
+def _small_svg(sample: Html) -> Html:
+    return element("svg", sample, viewBox="0 0 24 10", width="24", height="10", aria_hidden="true")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
@@ -10,7 +11,7 @@ from typing import Any, Final
 
 from conveyor.models.report import Paper
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Contents, Figure, Table, figure_table
-from conveyor.text.markup import Html, element, escape_html, join_html
+from conveyor.text.markup import Html, Markup, element, join_html
 from conveyor.units import System
 from conveyor.units.presentation import display_unit
 
@@ -196,7 +197,7 @@ _NAME_CHARACTERS, _WORD_CHARACTERS = (
     9,
 )  # characters up to which a name of a row, and another text ("600 PIW"), stays on one line
 _LONG = 36  # characters beyond which a column of text may be broken anywhere
-_NO_VALUE = "–"
+_NO_VALUE, _WIDE_SPACE = "–", "\u2002"
 _VERDICT_MARKS = {"pass": ("pass", "✓"), "FAIL": ("fail", "✗"), "not checked": ("open", "?")}
 
 
@@ -225,35 +226,20 @@ def table_html(shown: Table, caption: str, system: System = "SI", *, kind: str =
         for name, how in zip(names, classes, strict=True)
     ]
 
-    def line(cells: Iterable[Html]) -> Html:
-        return element(
-            "tr",
-            *(
-                element(
-                    "th",
-                    cell,
-                    scope="row",
-                    class_=how,
-                    data_label=_column_label(column, system) if j else None,
-                    translate="no" if column.verbatim else None,
-                )
-                if j < shown.named
-                else element(
-                    "td",
-                    cell,
-                    class_=how,
-                    data_label=_column_label(column, system),
-                    translate="no" if column.verbatim else None,
-                )
-                for j, (column, cell, how) in enumerate(zip(shown.columns, cells, classes, strict=True))
-            ),
-        )
+    def line(cells: Iterable[Html | str]) -> Html:
+        made = []
+        for j, (column, cell, how) in enumerate(zip(shown.columns, cells, classes, strict=True)):
+            tag, scope = ("th", "row") if j < shown.named else ("td", None)
+            label = None if scope and j == 0 else _column_label(column, system)
+            kept = "no" if column.verbatim else None
+            made.append(element(tag, cell, scope=scope, class_=how, data_label=label, translate=kept))
+        return element("tr", *made)
 
     parts = [element("caption", caption), element("thead", element("tr", *heads))]
     parts.append(element("tbody", *(line(cells) for cells in zip(*columns, strict=True))))
     if shown.foot and any(column.total for column in shown.columns):
         sums = zip(shown.columns, shown.totals(), strict=True)
-        cells = (escape_html("" if v is None else display_unit(c.kind, system).written(v)) for c, v in sums)
+        cells = ("" if v is None else display_unit(c.kind, system).written(v) for c, v in sums)
         parts.append(element("tfoot", line(cells)))
     wide, short = len(shown.columns) > _WIDE, len(shown.rows) <= _SHORT
     return scroll_box(element("table", *parts), caption, wide=wide, keep=short, kind=f"rows {kind}".rstrip())
@@ -284,21 +270,18 @@ def _column_label(column: Column, system: System) -> str:
 
 
 def _with_unit(words: str, sign: str) -> Html:
-    marked = [words, " ", element("span", f"[{sign}]", class_="unit")] if sign else [words]
-    return join_html(marked)
+    return join_html([words, " ", element("span", f"[{sign}]", class_="unit")] if sign else [words])
 
 
-def _cell_html(shown: Table, column: Column, row: Any, system: System) -> Html:
+def _cell_html(shown: Table, column: Column, row: Any, system: System) -> Html | str:
     value = column.get(row)
     if column.kind == FIGURE_NAME:
         return _with_unit(value, row.unit(system).sign)
     if _is_missing(value):
-        return escape_html(
-            "" if column.asked and all(_is_missing(column.get(one)) for one in shown.rows) else _NO_VALUE
-        )
+        return "" if column.asked and all(_is_missing(column.get(one)) for one in shown.rows) else _NO_VALUE
     if column.kind == "verdict" and value in _VERDICT_MARKS:
         return verdict_mark(value)
-    return escape_html(shown.unit(column, row, system).written(value))
+    return shown.unit(column, row, system).written(value)
 
 
 def scroll_box(content: Html, label: str, *, wide: bool, keep: bool, kind: str = "") -> Html:
@@ -315,7 +298,7 @@ def fold_away(caption: str, content: Html) -> Html:
 def notebook_html(
     system: System,
     tables: Iterable[tuple[str, Table]],
-    notes: Mapping[str, Sequence[object]] = MappingProxyType({}),
+    notes: Mapping[str, Sequence[str]] = MappingProxyType({}),
 ) -> Html:
     """Return tables cut to their first rows, and notes folded away."""
     shown = ((caption, replace(part.on_sheet(), rows=part.rows[:_NOTEBOOK_ROWS], foot="")) for caption, part in tables)
@@ -373,7 +356,14 @@ def verdict_mark(word: str) -> Html:
     return element("span", element("span", mark, aria_hidden="true"), " ", word, class_=f"verdict {kind}")
 
 
-def fact_list(pairs: Iterable[tuple[str, object]], kind: str = "facts") -> Html:
+def verdict_counts(verdicts: Iterable[str]) -> Html:
+    """Return how many have each verdict, with its symbol."""
+    count = Counter(verdicts)
+    known = (word for word in _VERDICT_MARKS if count[word])
+    return join_html(part for word in known for part in (f"{count[word]} ", verdict_mark(word), _WIDE_SPACE))
+
+
+def fact_list(pairs: Iterable[tuple[str, Html | str]], kind: str = "facts") -> Html:
     """Return names and values as a definition list."""
     named = (element("div", element("dt", name), element("dd", value)) for name, value in pairs)
     return element("dl", *named, class_=kind)
@@ -381,7 +371,7 @@ def fact_list(pairs: Iterable[tuple[str, object]], kind: str = "facts") -> Html:
 
 def key_figure_tiles(shown: Iterable[Figure], system: System = "SI", of: str = "") -> Html:
     """Return key figures as large tiles; `of` stands behind their names."""
-    pairs = []
+    pairs: list[tuple[str, Html | str]] = []
     for figure in shown:
         written = display_unit(figure.kind, system, large=True)
         value, _, sign = written.said(figure.value, 3).partition(" ")
@@ -394,7 +384,7 @@ def key_figure_tiles(shown: Iterable[Figure], system: System = "SI", of: str = "
     return fact_list(pairs, "tiles")
 
 
-def bullet_list(lines: Sequence[object], kind: str | None = None) -> Html:
+def bullet_list(lines: Sequence[str], kind: str | None = None) -> Html:
     """Return lines as a list; "none" where there are none."""
     if not lines:
         return element("p", "none")
@@ -423,7 +413,7 @@ def page_html(title: str, kind: str, top: Html, parts: Sequence[PagePart], foot:
         element("meta", name="viewport", content="width=device-width, initial-scale=1"),
         element("meta", name="generator", content=foot),
         element("title", f"{title} – {kind}"),
-        element("style", Html(style_sheet(paper))),
+        element("style", Markup(style_sheet(paper))),
     )
     contents = element("ol", *(element("li", element("a", part.heading, href=f"#{part.name}")) for part in parts))
     sections = [
@@ -443,4 +433,4 @@ def page_html(title: str, kind: str, top: Html, parts: Sequence[PagePart], foot:
         element("main", *sections),
         element("footer", foot),
     )
-    return Html("<!DOCTYPE html>\n" + element("html", head, body, lang="en") + "\n")
+    return element("html", head, body, lang="en")

@@ -7,10 +7,9 @@ A page is made of a few elements of `conveyor.report.page_elements` alone; each 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
-from html.parser import HTMLParser
 from importlib.util import find_spec
 from itertools import groupby
 from pathlib import Path
@@ -20,23 +19,21 @@ from typing import Final
 
 from conveyor.errors import InputError
 from conveyor.files.atomic_write import check_writable, save_files
+from conveyor.models.report import Paper
 from conveyor.report.html import build_page
 from conveyor.report.matplotlib_settings import load_matplotlib
 from conveyor.report.page_elements import COLOURS
+from conveyor.report.svg import stand_alone_svg
 from conveyor.report.table_model import Contents
-from conveyor.text.markup import Html
+from conveyor.text.markup import Html, Markup
 from conveyor.text.printable import text_width
 
 _TYPST_FORMS: Final = Path(__file__).with_name("page.typ")
 _FONT: Final = "DejaVu Sans"  # comes with matplotlib; missing letters are from the fonts of the machine
 _PAPERS: Final = {"A4": "a4", "Letter": "us-letter"}
-_PAPER: Final = re.compile(r"@page { size: (\w+); }")
-_LANGUAGE: Final = re.compile(r'<html lang="(\w+)"')
 _CHINESE_FONTS: Final = re.compile(
     r"CJK|\bSC\b|\bCN\b|SimSun|SimHei|YaHei|PingFang|Source Han|WenQuanYi|Heiti|Songti|KaiTi|FangSong"
 )
-_DRAWING: Final = re.compile(r"<svg\b.*?</svg>", re.DOTALL)
-_SVG_NAMESPACE: Final = "http://www.w3.org/2000/svg"
 _PAGE_WIDTH: Final = 521.0  # between the margins of A4 [pt]
 _SIZE = 8.0  # letters of tables [pt]
 _SHORT: Final = 13  # characters up to which a text ("> 100 %") stays on one line
@@ -48,59 +45,8 @@ _BOLD: Final = 1.13  # width of a letter of a heading over that of text
 _HEAD_LINES: Final = 3  # of a heading above a narrow column
 _SHARES: Final = 20  # steps of the width that parts of a table are filled to
 _ROOM: Final = _PAGE_WIDTH / (_SIZE * _LETTER)  # of a line [letters]
-_VOID_TAGS: Final = frozenset({"meta", "br"})
 _SCREEN_TAGS: Final = frozenset({"head", "nav", "details", "button", "footer"})
 _INKS: Final = {"pass": "good", "fail": "bad", "open": "open"}
-
-
-@dataclass(eq=False)
-class _Element:
-    """An element of a page: tag, classes, content."""
-
-    tag: str
-    classes: frozenset[str] = frozenset()
-    content: list[_Element | str] = field(default_factory=list)
-
-    @property
-    def elements(self) -> list[_Element]:
-        """Child elements."""
-        return [one for one in self.content if isinstance(one, _Element)]
-
-    @property
-    def text(self) -> str:
-        """Text content."""
-        return "".join(one if isinstance(one, str) else one.text for one in self.content)
-
-    def first(self, tag: str) -> _Element:
-        """First descendant with a tag."""
-        return next(one for one in self.every() if one.tag == tag)
-
-    def every(self) -> Iterator[_Element]:
-        """All descendants in document order."""
-        for one in self.elements:
-            yield one
-            yield from one.every()
-
-
-class _PageReader(HTMLParser):
-    """Parser of a page into elements."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.open = [_Element("page")]
-
-    def handle_starttag(self, tag: str, attrs: Sequence[tuple[str, str | None]]) -> None:
-        made = _Element(tag, frozenset((dict(attrs).get("class") or "").split()))
-        self.open[-1].content.append(made)
-        if tag not in _VOID_TAGS:
-            self.open.append(made)
-
-    def handle_endtag(self, tag: str) -> None:
-        if self.open.pop().tag != tag:
-            raise ValueError(f"an element is closed as {tag} that was not opened as one")  # a page of ours has none
-
-    def handle_data(self, data: str) -> None:
-        self.open[-1].content.append(data)
 
 
 def write_pdf(contents: Contents, path: Path) -> Path:
@@ -127,7 +73,7 @@ def write_pdf(contents: Contents, path: Path) -> Path:
         raise InputError(f'{path}: a PDF\'s name ends in .pdf, got "{path.suffix}"')
     require_typst()
     check_writable(path)
-    save_files({path: page_pdf(build_page(contents, on_paper=True))})
+    save_files({path: page_pdf(build_page(contents, on_paper=True), contents.document.paper)})
     return path
 
 
@@ -145,8 +91,8 @@ def require_typst() -> None:
         )
 
 
-def page_pdf(page: Html) -> bytes:
-    """Return a page of `conveyor.report.page_elements` as PDF; the same page gives the same bytes.
+def page_pdf(page: Html, paper: Paper) -> bytes:
+    """Return a page of `conveyor.report.page_elements` as PDF on its paper; the same page gives the same bytes.
 
     Raises
     ------
@@ -159,8 +105,8 @@ def page_pdf(page: Html) -> bytes:
     with TemporaryDirectory() as folder:
         copy_fonts(Path(folder))
         known = typst.Fonts(font_paths=[folder])
-        further = _chinese_font(known.families()) if page_language(page) == "zh" else ""
-        return typst.compile(typst_source(page, further).encode(), format="pdf", font_paths=known)
+        further = _chinese_font(known.families()) if page.attributes["lang"] == "zh" else ""
+        return typst.compile(typst_source(page, paper, further).encode(), format="pdf", font_paths=known)
 
 
 def copy_fonts(folder: Path) -> None:
@@ -170,12 +116,6 @@ def copy_fonts(folder: Path) -> None:
     """
     for path in (Path(load_matplotlib().get_data_path()) / "fonts" / "ttf").glob("DejaVuSans*.ttf"):
         copyfile(path, folder / path.name)
-
-
-def page_language(page: str) -> str:
-    """Language of a page."""
-    found = _LANGUAGE.search(page)
-    return found[1] if found else "en"
 
 
 def _chinese_font(families: Iterable[str]) -> str:
@@ -189,124 +129,120 @@ def _chinese_font(families: Iterable[str]) -> str:
     return found
 
 
-def typst_source(page: Html, further_font: str = "") -> str:
+def typst_source(page: Html, paper: Paper, further_font: str = "") -> str:
     """Return a page as Typst source; a further font has the letters that the usual one has not."""
-    drawings: list[str] = []
-
-    def apart(found: re.Match[str]) -> str:
-        drawings.append(found[0])
-        return f'<svg class="{len(drawings) - 1}"></svg>'
-
-    reader = _PageReader()
-    reader.feed(_DRAWING.sub(apart, page))
-    whole, paper, language = reader.open[0], _PAPER.search(page), page_language(page)
-    said = {"title": whole.first("h1"), "kind": whole.first("p"), "foot": whole.first("footer")}
+    said, language = {"title": "h1", "kind": "p", "foot": "footer"}, page.attributes["lang"]
     given = [
         *(f'#let {name} = rgb("{value}")' for name, value in COLOURS.items()),
-        *(f"#let page-{name} = {_typst_string(element.text)}" for name, element in said.items()),
-        f'#set page(paper: "{_PAPERS[paper[1] if paper else "A4"]}")',
+        *(f"#let page-{name} = {_typst_string(page.first(tag).text)}" for name, tag in said.items()),
+        f'#set page(paper: "{_PAPERS[paper]}")',
         f"#set text(font: ({_typst_string(_FONT)}, {_typst_string(further_font or _FONT)}))",
         f'#set text(lang: "{language}"{", hyphenate: true" if language != "en" else ""})',
     ]
-    return "\n".join([*given, _TYPST_FORMS.read_text("utf-8"), _TypstWriter(drawings).flow(whole)])
+    return "\n".join([*given, _TYPST_FORMS.read_text("utf-8"), _write_content(page)])
 
 
-class _TypstWriter:
-    """Writer of elements as Typst; `drawings` are the SVG texts of the page."""
+def _write_content(element: Html) -> str:
+    """Content of an element; consecutive figures side by side."""
+    parts: list[str] = []
+    for figures, group in groupby(filter(_is_printed, element.content), _is_figure):
+        made = map(_write_part, list(group))
+        parts += [f"\n#drawings({', '.join(made)},)\n"] if figures else made
+    return "".join(parts)
 
-    def __init__(self, drawings: Sequence[str]) -> None:
-        self.drawings = drawings
-        self.by_tag: Mapping[str, Callable[[_Element], str]] = {
-            **{f"h{level}": partial(self.heading, level) for level in (1, 2, 3)},
-            "p": self.paragraph,
-            "li": lambda item: f"\n- {self.flow(item)}\n",
-            "br": lambda _: " \\ ",
-            "strong": lambda words: f"#strong[{self.flow(words)}]",
-            "small": lambda words: f"#small[{self.flow(words)}]",
-            "span": self.span,
-            "dl": self.named,
-            "div": self.division,
-            "figure": self.figure,
-        }
 
-    def flow(self, element: _Element) -> str:
-        """Content of an element; consecutive figures side by side."""
-        parts: list[str] = []
-        for figures, group in groupby(filter(_is_printed, element.content), _is_figure):
-            made = map(self.one, list(group))
-            parts += [f"\n#drawings({', '.join(made)},)\n"] if figures else made
-        return "".join(parts)
+def _write_part(part: Html | str) -> str:
+    """An element or text."""
+    if isinstance(part, str):
+        return f"#{_typst_string(part)}" if part.strip() else " "
+    return _FORMS.get(part.tag, _write_content)(part)
 
-    def one(self, part: _Element | str) -> str:
-        """An element or text."""
-        if isinstance(part, str):
-            return f"#{_typst_string(part)}" if part.strip() else " "
-        return self.by_tag.get(part.tag, self.flow)(part)
 
-    def heading(self, level: int, element: _Element) -> str:
-        """A heading, also a bookmark of the file."""
-        return f"\n#heading(level: {level})[{self.flow(element)}]\n"
+def _write_heading(level: int, element: Html) -> str:
+    """A heading, also a bookmark of the file."""
+    return f"\n#heading(level: {level})[{_write_content(element)}]\n"
 
-    def paragraph(self, element: _Element) -> str:
-        """A paragraph, a note, or the overall verdict."""
-        form = "stands" if "stands" in element.classes else "muted-text" if element.classes else ""
-        words = self.flow(element)
-        return f"\n#{form}{_verdict_colours(element)}[{words}]\n\n" if form else f"\n{words}\n\n"
 
-    def span(self, element: _Element) -> str:
-        """Inline text: the verdict of a check, or a unit, which is not broken."""
-        form = "verdict" if "verdict" in element.classes else "box" if "unit" in element.classes else ""
-        words = self.flow(element)
-        return f"#{form}{_verdict_colours(element)}[{words}]" if form else words
+def _write_paragraph(element: Html) -> str:
+    """A paragraph, a note, or the overall verdict."""
+    form = "stands" if "stands" in element.classes else "muted-text" if element.classes else ""
+    words = _write_content(element)
+    return f"\n#{form}{_verdict_colours(element)}[{words}]\n\n" if form else f"\n{words}\n\n"
 
-    def named(self, element: _Element) -> str:
-        """A definition list: key figures, facts, or terms."""
-        kind = next((kind for kind in ("tiles", "facts") if kind in element.classes), "terms")
-        pairs = ((self.flow(one) for one in pair.elements) for pair in element.elements)
-        return f"\n#{kind}({''.join(f'([{name}], [{words}]), ' for name, words in pairs)})\n"
 
-    def division(self, element: _Element) -> str:
-        """A table, parts side by side, signature lines, a separate sheet, or plain content."""
-        if any(one.tag == "table" for one in element.elements):
-            return self.table(element.first("table"), element.classes)
-        side_by_side = next((kind for kind in ("beside", "signed") if kind in element.classes), None)
-        if side_by_side:
-            return f"\n#{side_by_side}({', '.join(f'[{self.one(part)}]' for part in element.elements)})\n"
-        return self.flow(element) + ("\n#pagebreak(weak: true)\n" if "sheet" in element.classes else "")
+def _write_span(element: Html) -> str:
+    """Inline text: the verdict of a check, or a unit, which is not broken."""
+    form = "verdict" if "verdict" in element.classes else "box" if "unit" in element.classes else ""
+    words = _write_content(element)
+    return f"#{form}{_verdict_colours(element)}[{words}]" if form else words
 
-    def table(self, element: _Element, kinds: frozenset[str]) -> str:
-        """A table with its caption, in parts where it is too wide; its header repeats on every page."""
-        caption, head, *parts = element.elements
-        rows = [(row.elements, part.tag == "tfoot") for part in (head, *parts) for row in part.elements]
-        name = f"{'hide' if 'further' in caption.classes else 'muted-text'}[{self.flow(caption)}]"
-        keep, made = str("keep" in kinds).lower(), []
-        needs = [_ColumnNeed.of(top, below) for top, *below in zip(*(row for row, _ in rows), strict=True)]
-        named = sum(cell.tag == "th" for cell in rows[-1][0]) if len(rows) > 1 else 0
-        for shown in _split_columns([need.least for need in needs], named):
-            lines = [([row[j] for j in shown], foot) for row, foot in rows]
-            size, columns = _column_layout([needs[j] for j in shown])
-            top, *below = (self.cells(line, strong=foot) for line, foot in lines)
-            given = ",\n".join([keep, f"{size:.2f}pt", columns, name, f"table.header({top})", *below])
-            made.append(f"\n#captioned({given})\n")
-            name = "none"
-        return "".join(made)
 
-    def cells(self, row: Sequence[_Element], *, strong: bool = False) -> str:
-        """Cells of a row; numbers aligned right."""
-        made = []
-        for cell in row:
-            how = ["align: right"] * bool(cell.classes & {"n", "v"})
-            how += ["fill: open-pale"] * ("asked" in cell.classes)
-            words = f"#strong[{self.flow(cell)}]" if strong else self.flow(cell)
-            made.append(f"table.cell({', '.join(how)})[{words}]" if how else f"[{words}]")
-        return ", ".join(made)
+def _write_pairs(element: Html) -> str:
+    """A definition list: key figures, facts, or terms."""
+    kind = next((kind for kind in ("tiles", "facts") if kind in element.classes), "terms")
+    pairs = (map(_write_content, pair.elements) for pair in element.elements)
+    return f"\n#{kind}({''.join(f'([{name}], [{words}]), ' for name, words in pairs)})\n"
 
-    def figure(self, element: _Element) -> str:
-        """A drawing and its caption."""
-        svg = self.drawings[int(next(iter(element.first("svg").classes)))].replace("sans-serif", _FONT)
-        if "xmlns=" not in svg[: svg.index(">")]:
-            svg = svg.replace("<svg", f'<svg xmlns="{_SVG_NAMESPACE}"', 1)
-        return f"({_typst_string(svg)}, [{self.flow(element.first('figcaption'))}])"
+
+def _write_division(element: Html) -> str:
+    """A table, parts side by side, signature lines, a separate sheet, or plain content."""
+    if any(one.tag == "table" for one in element.elements):
+        return _write_table(element.first("table"), element.classes)
+    side_by_side = next((kind for kind in ("beside", "signed") if kind in element.classes), None)
+    if side_by_side:
+        return f"\n#{side_by_side}({', '.join(f'[{_write_part(part)}]' for part in element.elements)})\n"
+    return _write_content(element) + ("\n#pagebreak(weak: true)\n" if "sheet" in element.classes else "")
+
+
+def _write_table(element: Html, kinds: frozenset[str]) -> str:
+    """A table with its caption, in parts where it is too wide; its header repeats on every page."""
+    caption, head, *parts = element.elements
+    rows = [(row.elements, part.tag == "tfoot") for part in (head, *parts) for row in part.elements]
+    name = f"{'hide' if 'further' in caption.classes else 'muted-text'}[{_write_content(caption)}]"
+    keep, made = str("keep" in kinds).lower(), []
+    needs = [_ColumnNeed.of(top, below) for top, *below in zip(*(row for row, _ in rows), strict=True)]
+    named = sum(cell.tag == "th" for cell in rows[-1][0]) if len(rows) > 1 else 0
+    for shown in _split_columns([need.least for need in needs], named):
+        lines = [([row[j] for j in shown], foot) for row, foot in rows]
+        size, columns = _column_layout([needs[j] for j in shown])
+        top, *below = (_write_cells(line, strong=foot) for line, foot in lines)
+        given = ",\n".join([keep, f"{size:.2f}pt", columns, name, f"table.header({top})", *below])
+        made.append(f"\n#captioned({given})\n")
+        name = "none"
+    return "".join(made)
+
+
+def _write_cells(row: Sequence[Html], *, strong: bool) -> str:
+    """Cells of a row; numbers aligned right."""
+    made = []
+    for cell in row:
+        how = ["align: right"] * bool(cell.classes & {"n", "v"})
+        how += ["fill: open-pale"] * ("asked" in cell.classes)
+        words = f"#strong[{_write_content(cell)}]" if strong else _write_content(cell)
+        made.append(f"table.cell({', '.join(how)})[{words}]" if how else f"[{words}]")
+    return ", ".join(made)
+
+
+def _write_figure(element: Html) -> str:
+    """A drawing and its caption."""
+    svg = next(part for part in element.first("div").content if isinstance(part, Markup))
+    drawing = stand_alone_svg(svg).replace("sans-serif", _FONT)
+    return f"({_typst_string(drawing)}, [{_write_content(element.first('figcaption'))}])"
+
+
+_FORMS: Final[Mapping[str, Callable[[Html], str]]] = {
+    **{f"h{level}": partial(_write_heading, level) for level in (1, 2, 3)},
+    "p": _write_paragraph,
+    "li": lambda item: f"\n- {_write_content(item)}\n",
+    "br": lambda _: " \\ ",
+    "strong": lambda words: f"#strong[{_write_content(words)}]",
+    "small": lambda words: f"#small[{_write_content(words)}]",
+    "span": _write_span,
+    "dl": _write_pairs,
+    "div": _write_division,
+    "figure": _write_figure,
+}
+"""Forms of elements on paper by tag; others are their content."""
 
 
 @dataclass(frozen=True)
@@ -318,7 +254,7 @@ class _ColumnNeed:
     least: float
 
     @classmethod
-    def of(cls, head: _Element, below: Sequence[_Element]) -> _ColumnNeed:
+    def of(cls, head: Html, below: Sequence[Html]) -> _ColumnNeed:
         """Need of a column: at least its longest word, short text or number, and a line of the names of rows."""
         longest, heading = max((text_width(cell.text) for cell in below), default=0), _BOLD * text_width(head.text)
         kept = [
@@ -372,15 +308,15 @@ def _column_layout(needs: Sequence[_ColumnNeed]) -> tuple[float, str]:
     return _SIZE * min(1.0, _ROOM / least), f"({', '.join(f'{width:.1f}fr' for width in widths)})"
 
 
-def _is_printed(part: _Element | str) -> bool:
+def _is_printed(part: Html | str) -> bool:
     return isinstance(part, str) or not (part.tag in _SCREEN_TAGS or "unprinted" in part.classes)
 
 
-def _is_figure(part: _Element | str) -> bool:
-    return isinstance(part, _Element) and part.tag == "figure"
+def _is_figure(part: Html | str) -> bool:
+    return isinstance(part, Html) and part.tag == "figure"
 
 
-def _verdict_colours(element: _Element) -> str:
+def _verdict_colours(element: Html) -> str:
     """Arguments for the colours of a verdict; empty for other text."""
     ink = next((ink for kind, ink in _INKS.items() if kind in element.classes), None)
     return "" if ink is None else f"({ink}, {ink}-pale)"

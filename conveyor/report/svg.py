@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
 from conveyor.report.plots import curve_colour, drawing_settings
-from conveyor.report.translated_page import TRANSLATED_FIGURE, translate_figure
-from conveyor.text.markup import Html, element
+from conveyor.report.translated_page import translate_figure
+from conveyor.text.markup import Html, Markup, element
 from conveyor.text.printable import escape_controls
 from conveyor.units.sentences import SUPERSCRIPTS
 
@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
     from conveyor.languages.translator import Translator
 
-_SVG_NAMESPACE = "{http://www.w3.org/2000/svg}"
+_NAMESPACE = "http://www.w3.org/2000/svg"
+_SVG_NAMESPACE = f"{{{_NAMESPACE}}}"
 _LINK_ATTRIBUTE = "{http://www.w3.org/1999/xlink}href"
 _REFERENCE = re.compile(r"url\(#([^)]+)\)")
 _FONT = re.compile(r"font-family:[^;\"]*;?\s*|(font: [^;']*?\d+px )[^;\"]*")
@@ -55,7 +56,7 @@ _SIMPLIFY_THRESHOLD = 0.5
 
 def figure_svg(
     figure: Figure, name: str, label: str, *, on_paper: bool = False, words: Translator | None = None
-) -> Html:
+) -> Markup:
     """Draw a figure as an SVG element.
 
     Parameters
@@ -76,7 +77,7 @@ def figure_svg(
             translate_figure(figure, words)
         restyle_figure(figure, on_paper=on_paper)
         drawn = _svg_bytes(figure)
-    return Html(_clean_svg(escape_controls(drawn.decode()), name, label, translated=words is not None))
+    return Markup(_clean_svg(escape_controls(drawn.decode()), name, escape_controls(label), words))
 
 
 def restyle_figure(figure: Figure, *, on_paper: bool = False) -> None:
@@ -235,7 +236,7 @@ def _svg_bytes(figure: Figure) -> bytes:
     return content.getvalue()
 
 
-def _clean_svg(svg: str, name: str, label: str, *, translated: bool) -> str:
+def _clean_svg(svg: str, name: str, label: str, words: Translator | None) -> str:
     root = ET.fromstring(svg.encode())  # noqa: S314 drawn here
     used = {_link_target(node) for node in root.iter()} | {
         mark for node in root.iter() for value in node.attrib.values() for mark in _REFERENCE.findall(value)
@@ -245,6 +246,8 @@ def _clean_svg(svg: str, name: str, label: str, *, translated: bool) -> str:
         node.tag = node.tag.removeprefix(_SVG_NAMESPACE)
         if node.text is not None and node.tag not in {"text", "tspan", "title"}:
             node.text = None
+        if node.text is not None and words is not None:
+            node.text = words.numbers_only(node.text)
         node.tail = None
         if node.get("id") in used:
             node.set("id", f"{name}-{node.get('id')}")
@@ -258,9 +261,7 @@ def _clean_svg(svg: str, name: str, label: str, *, translated: bool) -> str:
     for key in ("width", "height", "version"):
         root.attrib.pop(key, None)
     root.set("role", "img")
-    root.set("aria-label", label)
-    if translated:
-        root.set(TRANSLATED_FIGURE, "")
+    root.set("aria-label", label if words is None else words.heading(label))
     _inline_groups(root)
     return ET.tostring(root, encoding="unicode")
 
@@ -300,7 +301,12 @@ def _shorten_value(key: str, value: str, name: str) -> str:
     return value
 
 
-def captioned_drawing(drawing: Html, caption: str, *, printed: bool = True) -> Html:
+def stand_alone_svg(drawn: Markup) -> str:
+    """Return a drawing of a page as it is in a file of its own."""
+    return drawn.replace("<svg", f'<svg xmlns="{_NAMESPACE}"', 1)
+
+
+def captioned_drawing(drawing: Html | Markup, caption: str, *, printed: bool = True) -> Html:
     """Return a drawing with its caption; it scrolls by itself on a narrow screen."""
     return element(
         "figure",

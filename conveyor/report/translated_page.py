@@ -1,79 +1,41 @@
-"""The page and its figures in the language of the report: every text of the finished page is translated."""
+"""The page and its figures in the language of the report: every text of the page is translated."""
 
 from __future__ import annotations
 
-import re
-from html import unescape
+from dataclasses import replace
 from textwrap import wrap
 from typing import TYPE_CHECKING, Final
 
 from conveyor.languages.translator import Translator
-from conveyor.text.markup import Html, escape_html
+from conveyor.text.markup import Html, Markup
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.container import Container
     from matplotlib.figure import Figure
 
-_TOKEN: Final = re.compile(r"<[^>]*>|[^<]+")
-_TAG: Final = re.compile(r"<(/?)([A-Za-z][\w:-]*)")
-_ATTRIBUTE: Final = re.compile(r'(\s(?:aria-label|data-label|alt|title)=")([^"]*)(")')
+_ATTRIBUTES: Final = frozenset({"aria-label", "data-label", "alt", "title"})
 _HEADINGS: Final = frozenset({"caption", "dt", "h2", "h3", "summary"})
-_SKIPPED: Final = frozenset({"style", "script"})
 _LEAST_LINE: Final = 12  # letters of a line of a label
-_COLUMN_HEAD: Final = 'scope="col"'
-_KEPT: Final = 'translate="no"'
-TRANSLATED_FIGURE: Final = "data-translated"
-"""Mark of a figure whose words were translated before it was drawn."""
 
 
-def translate_page(page: str, translator: Translator) -> Html:
+def translate_page(page: Html, translator: Translator) -> Html:
     """Return a page with its texts in the language of a translator; those marked `translate="no"` stay."""
-    made, kept, drawn, heading = [], _Depth(), _Depth(), False
-    for token in _TOKEN.findall(page):
-        if token.startswith("<"):
-            tag = _TAG.match(token)
-            name, closes = (tag[2], bool(tag[1])) if tag else ("", False)
-            inside = kept.inside
-            kept.pass_tag(token, name, closes=closes, opens=name in _SKIPPED or _KEPT in token)
-            drawn.pass_tag(token, name, closes=closes, opens=name == "svg" and TRANSLATED_FIGURE in token)
-            heading = not closes and (name in _HEADINGS or _COLUMN_HEAD in token)
-            made.append(token if inside else _translate_attributes(token, translator))
-        elif kept.inside or not token.strip():
-            made.append(token)
-        elif drawn.inside:
-            made.append(escape_html(translator.numbers_only(unescape(token))))
+    given = {name: translator.heading(said) if name in _ATTRIBUTES else said for name, said in page.attributes.items()}
+    if page.tag == "html":
+        given["lang"] = translator.catalogue.language
+    if given.get("translate") == "no":
+        return replace(page, attributes=given)
+    heading = page.tag in _HEADINGS or given.get("scope") == "col"
+    content: list[Html | str] = []
+    for part in page.content:
+        if isinstance(part, Html):
+            content.append(translate_page(part, translator))
+        elif isinstance(part, Markup):  # drawings, whose words were translated before they were drawn
+            content.append(part)
         else:
-            translate = translator.heading if heading else translator.text
-            made.append(escape_html(translate(unescape(token))))
-    return Html("".join(made))
-
-
-class _Depth:
-    """Whether the tokens lie inside an element, counted by its tag."""
-
-    def __init__(self) -> None:
-        self._name, self._open = "", 0
-
-    @property
-    def inside(self) -> bool:
-        return self._open > 0
-
-    def pass_tag(self, token: str, name: str, *, closes: bool, opens: bool) -> None:
-        """Go past a tag; `opens` if it begins such an element."""
-        if self._open:
-            if name == self._name and not token.endswith("/>"):
-                self._open += -1 if closes else 1
-        elif opens and not closes and not token.endswith("/>"):
-            self._name, self._open = name, 1
-
-
-def _translate_attributes(token: str, translator: Translator) -> str:
-    if token.startswith("<html "):
-        return token.replace('lang="en"', f'lang="{translator.catalogue.language}"')
-    return _ATTRIBUTE.sub(
-        lambda found: f"{found[1]}{escape_html(translator.heading(unescape(found[2])))}{found[3]}", token
-    )
+            content.append(translator.heading(part) if heading and not content else translator.text(part))
+    return Html(tuple(content), page.tag, given)
 
 
 def translate_figure(figure: Figure, translator: Translator) -> None:

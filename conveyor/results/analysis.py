@@ -253,7 +253,7 @@ class Analysis(CalculatedConveyor):
         """For notebooks: key figures, failed checks, warnings."""
         from conveyor.report.page_elements import notebook_summary
 
-        return notebook_summary(self.contents())
+        return str(notebook_summary(self.contents()))
 
 
 class CaseStudy(case_study.CalculatedCases):
@@ -269,7 +269,7 @@ class CaseStudy(case_study.CalculatedCases):
     def _repr_html_(self) -> str:
         from conveyor.report.tables.study_tables import cases_notebook
 
-        return cases_notebook(self)
+        return str(cases_notebook(self))
 
 
 class StateStudy(state_study.CalculatedStates):
@@ -285,7 +285,7 @@ class StateStudy(state_study.CalculatedStates):
     def _repr_html_(self) -> str:
         from conveyor.report.tables.study_tables import states_notebook
 
-        return states_notebook(self)
+        return str(states_notebook(self))
 
 
 class DutyStudy(duty_study.CalculatedYear):
@@ -308,7 +308,7 @@ class DutyStudy(duty_study.CalculatedYear):
     def _repr_html_(self) -> str:
         from conveyor.report.tables.study_tables import duty_notebook
 
-        return duty_notebook(self)
+        return str(duty_notebook(self))
 
 
 class UncertaintyStudy(range_study.CalculatedRanges):
@@ -324,7 +324,7 @@ class UncertaintyStudy(range_study.CalculatedRanges):
     def _repr_html_(self) -> str:
         from conveyor.report.tables.study_tables import uncertainty_notebook
 
-        return uncertainty_notebook(self)
+        return str(uncertainty_notebook(self))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -68,7 +68,7 @@ class Comparison(compound_study.CalculatedComparison, ReportExports):
         """For notebooks: the ranking and its remarks."""
         from conveyor.report.tables import comparison_tables
 
-        return comparison_tables.comparison_notebook(self)
+        return str(comparison_tables.comparison_notebook(self))
 
 
 class CalibrationStudy(calibration_study.CalculatedCalibration, ReportExports):

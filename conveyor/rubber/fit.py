@@ -136,7 +136,7 @@ class PronyFit:
 
     def _repr_html_(self) -> str:
         """For notebooks: the series, and how far it is from the data."""
-        from conveyor.text.markup import Html, join_html, name_value_table
+        from conveyor.text.markup import name_value_table
 
         rows = [
             ("data", f"{self.window[0]:.4g} to {self.window[1]:.4g} Hz"),
@@ -150,7 +150,7 @@ class PronyFit:
             ),
             ("any positive spectrum leaves", f"{100.0 * self.consistency_floor:.1f} %"),
         ]
-        return join_html([name_value_table("PronyFit", rows), Html(self.series._repr_html_())])
+        return f"{name_value_table('PronyFit', rows)}{self.series._repr_html_()}"
 
 
 def fit_prony(

@@ -101,7 +101,7 @@ class PronySeries:
             ("glassy modulus", f"{self.glassy / 1e6:.6g} MPa"),
             ("terms", terms or "none: an elastic solid"),
         ]
-        return name_value_table("PronySeries", rows)
+        return str(name_value_table("PronySeries", rows))
 
     @property
     def glassy(self) -> float:

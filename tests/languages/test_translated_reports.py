@@ -23,6 +23,7 @@ from conveyor.report.tables.analysis_contents import analysis_contents
 from conveyor.report.translated_page import translate_page
 from conveyor.report.translated_workbook import translate_contents
 from conveyor.results.analysis import studies
+from conveyor.text.markup import Markup, element, join_html
 
 ROOT = Path(__file__).parents[2]
 SPECS = ROOT / "examples" / "specs"
@@ -54,7 +55,7 @@ def test_tables_of_every_example_are_translated(name):
 
 def test_page_and_workbook_are_translated_whole(tmp_path):
     german = contents("overland_10km").in_language("de")
-    page = html.build_page(german)
+    page = str(html.build_page(german))
     assert german.translator.missing == {}
     assert '<html lang="de">' in page
     assert "Ausreichend wie vorgegeben" in page
@@ -76,7 +77,7 @@ def test_what_the_user_named_stays(tmp_path):
     path.write_text(spec + "report: {language: es, client: full}\n", encoding="utf-8")
     line = load(path)
     report = analysis_contents(analyse(line).assess(studies(line, analyse(line))).in_units("SI"))
-    page = html.build_page(report)
+    page = str(html.build_page(report))
     assert '<html lang="es">' in page
     assert ">full<" in page
     assert ">drive, carga<" in page
@@ -227,20 +228,38 @@ def test_glossary_of_fits_is_translated():
 
 def test_marked_elements_and_styles_stay():
     words = report_translator("de")
-    page = (
-        '<html lang="en"><style>p > a { drive: 0 }</style><td translate="no" data-label="drive">drive</td>'
-        '<p title="drive">drive<br>&lt; 1.5 kN</p></html>'
+    page = element(
+        "html",
+        element("style", Markup("p > a { drive: 0 }")),
+        element("td", "drive", element("b", "drive", title="drive"), translate="no", data_label="drive"),
+        element("p", "drive", element("br"), "< 1.5 kN", title="drive"),
+        lang="en",
     )
-    assert translate_page(page, words) == (
-        '<html lang="de"><style>p > a { drive: 0 }</style><td translate="no" data-label="Antrieb">drive</td>'
-        '<p title="Antrieb">Antrieb<br>&lt; 1,5 kN</p></html>'
+    assert str(translate_page(page, words)) == (
+        '<!DOCTYPE html>\n<html lang="de"><style>p > a { drive: 0 }</style>'
+        '<td translate="no" data-label="Antrieb">drive<b title="drive">drive</b></td>'
+        '<p title="Antrieb">Antrieb<br>&lt; 1,5 kN</p></html>\n'
     )
+
+
+def test_attributes_that_are_read_out_are_translated_and_no_others():
+    made = translate_page(element("img", alt="drive", aria_label="drive", name="drive"), report_translator("de"))
+    assert made.attributes == {"alt": "Antrieb", "aria-label": "Antrieb", "name": "drive"}
+
+
+def test_a_heading_is_the_reports_own_though_a_name_is_spelled_so():
+    """What follows the first element in it is text."""
+    words = report_translator("de", frozenset({"drive"}))
+    page = join_html([element("dt", "drive"), element("dd", "drive"), element("th", "drive", scope="col")])
+    assert translate_page(page, words).text == "AntriebdriveAntrieb"
+    named = report_translator("de", frozenset({"drive"}))
+    assert translate_page(element("dt", element("b", "x"), "drive"), named).text == "xdrive"
 
 
 def test_pdf_has_the_language_and_its_hyphens():
     page = html.build_page(contents("slider").in_language("pt"), on_paper=True)
-    assert '#set text(lang: "pt", hyphenate: true)' in pdf.typst_source(page)
-    assert pdf.page_pdf(page).startswith(b"%PDF")
+    assert '#set text(lang: "pt", hyphenate: true)' in pdf.typst_source(page, "A4")
+    assert pdf.page_pdf(page, "A4").startswith(b"%PDF")
 
 
 def test_pdf_in_chinese_needs_a_font_with_its_letters(monkeypatch):
@@ -249,7 +268,7 @@ def test_pdf_in_chinese_needs_a_font_with_its_letters(monkeypatch):
     known = typst.Fonts(include_system_fonts=False)
     monkeypatch.setattr(typst, "Fonts", lambda **_: known)
     with pytest.raises(InputError, match="PDF in Chinese needs a font with Chinese letters"):
-        pdf.page_pdf(page)
+        pdf.page_pdf(page, "A4")
     assert pdf._chinese_font(["DejaVu Sans", "Noto Sans CJK SC"]) == "Noto Sans CJK SC"
 
 

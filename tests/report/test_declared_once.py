@@ -81,11 +81,11 @@ def test_in_the_files(probed, tmp_path):
 
 
 def test_on_the_page_in_a_notebook_and_as_a_data_frame(probed):
-    made = html.build_page(probed)
+    made = str(html.build_page(probed))
     assert re.search(r">probe <span class=\"unit\">\[N\]", made)
     assert ">Probes</caption>" in made
     assert "<dt>probing, as given</dt><dd>12.3 <small>kW</small></dd>" in made
-    assert "probing" in notebook_summary(probed)
+    assert "probing" in str(notebook_summary(probed))
     assert "probe [lbf]" in probed["sections"].frame("US")
 
 
@@ -155,7 +155,7 @@ def test_a_criterion_is_in_checks_warnings_and_every_output(strained, tmp_path):
     assert "strength of the probe" in {cell.value for row in book["Summary"] for cell in row}
     page = html.write_page(contents, tmp_path / "weak.html").read_text(encoding="utf-8")
     assert "strength of the probe" in page
-    assert "strength of the probe" in notebook_summary(contents)
+    assert "strength of the probe" in str(notebook_summary(contents))
 
 
 def test_a_table_has_the_name_it_is_registered_under(strained):

@@ -24,6 +24,7 @@ from conveyor.report.line_drawings import (
 from conveyor.report.set_outline import set_outlines
 from conveyor.report.tables.analysis_contents import AnalysisTables
 from conveyor.spec import load
+from conveyor.text.markup import Html
 from conveyor.units.presentation import display_unit
 from tests.worked_examples import SPECS, worked_example
 
@@ -31,8 +32,8 @@ PIXEL = 0.1
 """Places are written to a tenth of a pixel: half of it for the point, half for the ends of the scale."""
 
 
-def parsed(markup: str) -> ET.Element:
-    return ET.fromstring(f"<div>{markup}</div>")  # noqa: S314 made here
+def parsed(drawn: Html) -> ET.Element:
+    return ET.fromstring(f"<div>{drawn}</div>")  # noqa: S314 made here
 
 
 def points(line: ET.Element) -> list[tuple[float, float]]:

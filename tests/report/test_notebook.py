@@ -14,7 +14,6 @@ from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve
 from conveyor.models import LoadCase, RubberCompound
 from conveyor.results.analysis import studies
 from conveyor.rubber import PronySeries, fit_prony
-from conveyor.text.markup import escape_html
 from tests.report.reading import HOSTILE, Page
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -88,7 +87,7 @@ def test_refused_contact_in_a_notebook_says_why():
     problem = ContactProblem(support="free", radius=0.1, thickness=1.0, pressure=50.0, creep=creep, poisson=0.5)
     solution = solve(problem, throw=False)
     prose = Page(solution._repr_html_()).prose
-    assert escape_html(solution.status.message) in escape_html(prose)
+    assert solution.status.message in prose
     assert "friction" not in [data for tag, data in Page(solution._repr_html_()).texts if tag == "th"]
 
 

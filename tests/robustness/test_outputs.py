@@ -13,6 +13,7 @@ from conveyor.errors import InputError
 from conveyor.files.atomic_write import save_files
 from conveyor.files.output_marks import output_kind
 from conveyor.report import excel, html, plots, table_files
+from conveyor.text.markup import Html
 from tests.robustness.arrange import SPEC, Case, given
 from tests.robustness.table import run
 
@@ -96,7 +97,7 @@ def test_all_outputs_of_a_command_or_none(tmp_path: Path) -> None:
 
 def test_own_outputs_are_known_and_replaced(tmp_path: Path, result: conveyor.Analysis) -> None:
     figure = plots.master_curve(shelf.compound("s100"))
-    book, page = tmp_path / "r.xlsx", html.build_page(result.contents()).encode()
+    book, page = tmp_path / "r.xlsx", str(html.build_page(result.contents())).encode()
     assert output_kind(excel.workbook_files(result.contents(), book)[book]) == "report workbook"
     assert output_kind(page) == "report page"
     for ending in (".png", ".svg", ".pdf"):
@@ -119,7 +120,7 @@ def test_the_same_figure_has_the_same_bytes() -> None:
 
 def test_pages_made_in_threads_are_those_made_in_turn(result: conveyor.Analysis) -> None:
     expected = html.build_page(result.contents())
-    made: list[str] = []
+    made: list[Html] = []
     threads = [threading.Thread(target=lambda: made.append(html.build_page(result.contents()))) for _ in range(4)]
     for thread in threads:
         thread.start()

@@ -96,7 +96,7 @@ def test_the_makers_columns_are_empty_and_marked(tmp_path: Path):
 
 def test_the_page_leaves_cells_empty_and_says_what_the_figures_are():
     found = conveyor.verify_sheet(["s100"], line_loads=["1 N/mm"], **ONE)
-    written = html.build_page(found.contents("US"))
+    written = str(html.build_page(found.contents("US")))
     assert re.search(r'<td class="asked"[^>]*></td>', written)
     assert "bonded to a carcass that does not give (confined)" in written
     assert "at 5.71 lbf/in, ours" in written

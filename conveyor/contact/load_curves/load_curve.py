@@ -116,7 +116,7 @@ class LoadCurve:
         rows = [("mean pressure p̃_m", f"{self.lowest:.6g} to {self.highest:.6g}")]
         rows += [(name, " to ".join(f"{value:.6g}" for value in span)) for name, span in there]
         rows.append(("relative error of friction", f"{self.error:.1e}"))
-        return name_value_table("LoadCurve, lengths over R", rows)
+        return str(name_value_table("LoadCurve, lengths over R", rows))
 
     def at(self, pressure: ArrayLike) -> LoadSolutions:
         """Results at mean pressures p̃_m.
