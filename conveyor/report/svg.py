@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from io import BytesIO
-from textwrap import wrap
+from textwrap import fill, wrap
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
@@ -218,12 +218,13 @@ def _set_legend(axis: Axes, figure: Figure, letters: int, *, alone: bool) -> int
         return 0
     once = dict(zip(labels, handles, strict=True))
     columns = max(1, min(3, letters // (max(map(len, once)) + _HANDLE)))
+    words = [fill(label, max(_LEAST_LINE, letters - _HANDLE)) for label in once]
     axis.legend(
-        once.values(), once.keys(), fontsize=_FONT_SIZE, frameon=False, loc="lower left", ncols=columns,
+        once.values(), words, fontsize=_FONT_SIZE, frameon=False, loc="lower left", ncols=columns,
         columnspacing=1.0, bbox_to_anchor=(_LEGEND_LEFT if alone else 0.0, 1.01), borderaxespad=0.0,
         bbox_transform=blended_transform_factory(figure.transFigure, axis.transAxes) if alone else None,
     )  # fmt: skip
-    return math.ceil(len(once) / columns)
+    return math.ceil(sum(1 + label.count("\n") for label in words) / columns)
 
 
 def _svg_bytes(figure: Figure) -> bytes:

@@ -214,3 +214,17 @@ def test_a_level_route_is_drawn_with_room_above_and_below(line):
     assert low == -high
     (axis,) = route_profile(line, Line.of(line), [*level[:-1], (level[-1][0], 30.0)]).axes
     assert axis.get_ylim()[1] > -axis.get_ylim()[0]
+
+
+@pytest.mark.parametrize("on_paper", [False, True])
+def test_a_long_name_in_a_legend_is_broken_into_lines(on_paper):
+    """One word after the other of a name longer than the figure; the plot keeps more than half of the width."""
+    figure, (axis,) = stacked_axes(1, 3.0)
+    name = "worst for drift to the outside, left bend, return strand, and for the edges of both bends, -15 °C"
+    for label in ("as given", name):
+        axis.plot([0.0, 1.0], [0.0, 1.0], label=label)
+    axis.legend()
+    restyle_figure(figure, on_paper=on_paper)
+    shown = [words.get_text() for words in axis.get_legend().get_texts()]
+    assert [" ".join(words.split("\n")) for words in shown] == ["as given", name]
+    assert figure.subplotpars.right - figure.subplotpars.left > 0.5

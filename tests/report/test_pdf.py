@@ -134,7 +134,7 @@ def test_a_table_wider_than_its_paper_is_parted_and_names_its_rows_in_every_part
     assert text.count("head7") == 1
 
 
-@pytest.mark.parametrize("name", ["overland_10km", "in_plant_us", "transfer"])
+@pytest.mark.parametrize("name", ["overland_10km", "in_plant_us", "transfer", "curved"])
 def test_no_letter_on_paper_is_smaller_than_eight_points(name):
     line = conveyor.load(EXAMPLES / "specs" / f"{name}.yaml")
     source = pdf.typst_source(html.build_page(conveyor.analyse(line).contents(studies(line)), on_paper=True), "A4")
