@@ -304,16 +304,22 @@ def test_the_tension_for_sag_is_that_of_the_span(line):
 
 
 def test_the_classical_power_stands_on_page_one_with_its_difference_by_cause(line):
-    """The parts of f add up to f, the differences to that of the powers; figures to three digits."""
+    """The causes add up to the power of the main resistance, the differences to that of the powers; three digits."""
     result = conveyor.analyse(line)
     rows = {row.subject: row for row in result.contents(system="SI")["governing_figures"].rows}
     row = rows["classical motor power, f = 0.02"]
     balance = result.balance
     there = balance.frame.motor(balance.classical.total)
     assert row.value == f"{there / 1e3:.3g} kW"
-    f, parts = re.search(r"f 0\.0200 for (0\.\d+) \(([^)]*)\)", row.where).groups()
+    pattern = r"f 0\.0200 for (0\.\d+) \(([\d,.]+) kW for ([\d,.]+) kW: ([^)]*)\)"
+    f, by_f, main, parts = re.search(pattern, row.where).groups()
     assert float(f) == pytest.approx(balance.friction_factor, abs=5e-5)
-    assert sum(float(part.split()[-1]) for part in parts.split(", ")) == pytest.approx(float(f), abs=2e-4)
+    assert [part.rsplit(" ", 2)[0] for part in parts.split(", ")][:2] == ["indentation", "idler rotation"]
+    kilowatts = [float(part.rsplit(" ", 2)[1].replace(",", "")) for part in parts.split(", ")]
+    assert sum(kilowatts) == pytest.approx(float(main.replace(",", "")), rel=1e-2)
+    per_newton = (there - balance.power.motor) / (balance.classical.total - balance.forces.total) / 1e3
+    assert float(main.replace(",", "")) == pytest.approx(per_newton * balance.forces.main, rel=6e-3)
+    assert float(by_f.replace(",", "")) == pytest.approx(per_newton * balance.classical.main, rel=6e-3)
     changes = [float(change) for change in re.findall(r"([+-][\d.]+) kW", row.where)]
     assert sum(changes) == pytest.approx((there - balance.power.motor) / 1e3, rel=2e-2)
     by_f = conveyor.analyse(line.replace(calculation=line.calculation.replace(method="din 22101")))

@@ -126,10 +126,12 @@ def _classical_power(a: CalculatedConveyor, power: Unit) -> GoverningRow:
     more = classical.total - balance.forces.total
     watts = (there - here) / more if more else 0.0
     main = {force.key for force in balance.along if force.kind == "main"}
-    parts = [(name, newtons / balance.unit_main) for name, newtons in balance.forces.parts.items() if name in main]
-    of_parts = ", ".join(f"{name.replace('_', ' ')} {part:.4f}" for name, part in parts)
+    parts = [(name, watts * newtons) for name, newtons in balance.forces.parts.items() if name in main]
+    of_parts = ", ".join(f"{name.replace('_', ' ')} {power.said(part, 3)}" for name, part in parts)
+    both = f"{power.said(watts * classical.main, 3)} for {power.said(watts * balance.forces.main, 3)}"
+    factors = f"f {classical.friction_factor:.4f} for {balance.friction_factor:.4f}"
     causes = (
-        (f"main resistance, f {classical.friction_factor:.4f} for {balance.friction_factor:.4f} ({of_parts})", "main"),
+        (f"main resistance, {factors} ({both}: {of_parts})", "main"),
         ("secondary resistances by C" if classical.secondary_by.startswith("(C") else "secondary resistances",
          "secondary"),
         ("special resistances", "special"),
