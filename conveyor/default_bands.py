@@ -434,7 +434,8 @@ def _force_changes(
 
 def _untested_rubbers(result: CalculatedConveyor) -> Iterator[Message]:
     """Notes on rubbers tested at other temperatures: which, and the spectrum that extrapolates the test factor."""
-    levels = [result.contacts.covers[strand].level for strand in STRANDS]
+    by_rubber = result.line.method == "viscoelastic"  # the other methods know no rubber
+    levels = [result.contacts.covers[strand].level for strand in STRANDS if by_rubber]
     names: dict[tuple[tuple[float, ...], str], dict[str, None]] = {}
     for level in levels:
         if level is None or level.anchor.tested_at(level.temperature):

@@ -81,7 +81,8 @@ def written() -> str:
         found = practice_summary(chosen)
         made.append(
             f"## {title}\n\n"
-            f"{found.within} of {found.count} lie in the band; medians: design over stated "
+            f"{found.within} of {found.count} figures lie in the band, and all those of {found.conveyors_within} of "
+            f"{found.conveyors} conveyors; medians: design over stated "
             f"{found.design_over_stated:.2f}, expected over stated {found.expected_over_stated:.2f}.\n\n"
             "| conveyor | resistance | stated | least | expected | design | classical | expected / stated | "
             "design / stated | stated lies | assumed |\n"

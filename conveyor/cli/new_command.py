@@ -30,6 +30,8 @@ class StarterKind(StrEnum):
     BRAKES = "brakes"
     TRANSFER = "transfer"
     SLIDER = "slider"
+    CEMA = "cema"
+    WEIGHED = "weighed"
     FEEDER = "feeder"
     PIPE = "pipe"
     DYNAMICS = "dynamics"

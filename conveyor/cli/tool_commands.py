@@ -177,7 +177,8 @@ def _compare_with_practice() -> None:
     for evidence in ("printed", "measured"):
         found = practice_summary([one for one in figures if one.evidence == evidence])
         print(
-            f"{evidence}: {found.within} of {found.count} between least and design; median of design over stated "
+            f"{evidence}: {found.within} of {found.count} figures between least and design, all of "
+            f"{found.conveyors_within} of {found.conveyors} conveyors; median of design over stated "
             f"{found.design_over_stated:.2f}, of expected over stated {found.expected_over_stated:.2f}"
         )
 

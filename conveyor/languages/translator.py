@@ -31,8 +31,8 @@ _SAME: Final = re.compile(
     r"|(?:[A-Z]'{0,2}|[a-zA-Z](?:_\w+)?|T(?:[12e]|max|min)|tan δ|\(C-1\) F_H|\|E\*\|/b_T"
     r"|T(?:x|yc|yr|ym|m|p|am|sb|bc|pl|ac))"  # a symbol
 )
-_SYMBOL_FIGURE: Final = re.compile(rf"(?:f =|K[xyt]|T(?:x|yc|yr|ym)) {NUMBER}")
-"""A symbol with its figure."""
+_SYMBOL_FIGURE: Final = re.compile(rf"(?:f =|K[xyt]|T(?:x|yc|yr|ym)) {NUMBER}(?: (?:[kM]?W|hp))?")
+"""A symbol with its figure, and the power that it takes."""
 _WITH_UNIT: Final = re.compile(r"(.+) (\[[^][]+\]|T(?:[12e]|max|min))", re.DOTALL)
 """A label with its unit, or with its symbol in US reports."""
 _LEAST_LETTERS: Final = 8

@@ -20,6 +20,7 @@ from conveyor.laws.resistance import (
 from conveyor.line.roll_drags import acceptance_limit, assumed_bearing, bearing_viscosity
 from conveyor.line.set_loads import FormedPipe
 from conveyor.models import Conveyor, IdlerSet, Roll
+from conveyor.models.calculation_methods import METHOD_NAMES
 from conveyor.models.library_items import without_entry_fields
 from conveyor.models.rolls import BearingDrag
 from conveyor.remarks.assumptions import library_models, rolls_by_field
@@ -209,10 +210,15 @@ def _set_warnings(result: CalculatedConveyor) -> Iterator[Message]:
 
 
 def _pipe_warnings(conveyor: Conveyor) -> Iterator[Message]:
-    """A belt too soft to bear on all six rolls, or one whose lap keeps it from a roll."""
-    pipe = FormedPipe.of(conveyor, conveyor.idlers.carry)
+    """A belt too soft to bear on all six rolls, one whose lap keeps it from a roll, and factors of other belts."""
+    pipe, method = FormedPipe.of(conveyor, conveyor.idlers.carry), conveyor.calculation.method
     if pipe is None:
         return
+    if method != "viscoelastic":
+        yield message(
+            f"idlers.carry.pipe: usual factors of {METHOD_NAMES[method]} are those of troughed belts, without what "
+            "forms the pipe; give factors of pipe conveyors"
+        )
     if pipe.least_stiffness is None:
         yield message("idlers.carry.pipe: with this lap the empty pipe leaves a roll untouched, however stiff the belt")
     elif pipe.stiffness < pipe.least_stiffness:

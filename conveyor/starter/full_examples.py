@@ -26,6 +26,8 @@ EXAMPLES: Final = {
     "slider": Example("specs/slider.yaml"),
     "feeder": Example("specs/feeder.yaml"),
     "pipe": Example("specs/pipe.yaml"),
+    "cema": Example("specs/by_cema_us.yaml"),
+    "weighed": Example("specs/weighed.yaml"),
     "dynamics": Example("dynamics/overland_15km.yaml", "dynamics"),
     "study": Example("studies/spacing.yaml", "study", "specs/overland.yaml"),
     "search": Example("studies/search.yaml", "optimise", "specs/overland_10km.yaml"),

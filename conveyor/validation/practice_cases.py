@@ -134,12 +134,16 @@ class PracticeSummary:
     ----------
     count, within : int
         Figures, and those in their band.
+    conveyors, conveyors_within : int
+        Conveyors, and those of which every figure is in its band.
     design_over_stated, expected_over_stated : float
         Medians [-].
     """
 
     count: int
     within: int
+    conveyors: int
+    conveyors_within: int
     design_over_stated: float
     expected_over_stated: float
 
@@ -160,6 +164,8 @@ def practice_summary(figures: list[PracticeFigure]) -> PracticeSummary:
     return PracticeSummary(
         count=len(figures),
         within=sum(figure.within for figure in figures),
+        conveyors=len({figure.spec for figure in figures}),
+        conveyors_within=len({one.spec for one in figures} - {one.spec for one in figures if not one.within}),
         design_over_stated=median(figure.design / figure.stated for figure in figures),
         expected_over_stated=median(figure.expected / figure.stated for figure in figures),
     )

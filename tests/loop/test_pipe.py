@@ -88,6 +88,16 @@ def test_a_belt_too_soft_for_its_pipe_is_told(spec):
     assert any("leaves a roll untouched" in line.text() for line in narrow)
 
 
+@pytest.mark.parametrize("method", ["din 22101", "iso 5048"])
+def test_factors_of_troughed_belts_are_named_for_a_pipe(spec, method):
+    def told(line):
+        return [one.text() for one in part_warnings(calculate(line)) if "troughed belts" in one.text()]
+
+    (words,) = told(with_fields(spec, {"calculation.method": method}))
+    assert "give factors of pipe conveyors" in words
+    assert told(spec) == []
+
+
 def test_half_the_spacing_is_half_the_forming_of_a_panel(spec):
     sets = {f"idlers.{strand}.spacing": "0.6 m" for strand in ("carry", "return")}
     near = calculate(with_fields(spec, sets)).line.stretches[0].loads

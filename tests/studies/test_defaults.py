@@ -98,6 +98,13 @@ def test_beyond_the_tested_temperatures_the_headline_says_so(line):
     assert rows["motor power as given, expected"].endswith("; beyond the tested temperatures of the rubber")
 
 
+def test_by_a_factor_nothing_is_said_of_tests_of_the_rubber(line):
+    cold = line.replace(ambient={"temperature": "-30 degC"})
+    by_f = cold.replace(calculation=cold.calculation.replace(method="din 22101"))
+    assert power_range(calculate(cold)).untested
+    assert power_range(calculate(by_f)).untested == ()
+
+
 def test_what_is_given_is_in_no_range(bare):
     known = calculated(drags(bare, "2 N"), flexure_share="10 %")
     assert [one.key for one in power_range(calculate(known)).effects] == ALWAYS
