@@ -130,6 +130,10 @@ CEMA_LIFT_OFF: Final = 1.11
 """Of CEMA's least radius of a concave curve, r = 1.11 T/w_belt [-]: it covers slopes up to 25.7 deg, whose cosine is
 1/1.11 (CEMA, Belt Conveyors for Bulk Materials, vertical curves; as commonly reproduced)."""
 
+CEMA_LEAST_TENSION: Final = 30.0 * 4.4482216152605 / 0.0254
+"""That CEMA keeps in the middle of a convex curve, 30 lbf/in, in r = b sin β E/(9 (T_c - 30)) of three equal rolls [N/m]
+(CEMA, Belt Conveyors for Bulk Materials, vertical curves; as commonly reproduced)."""
+
 
 def cema_lift_off_radius(tension: float, *, belt_mass: float, gravity: float) -> float:
     """Least radius of a concave curve by CEMA, r = 1.11 T/(m'_belt g).

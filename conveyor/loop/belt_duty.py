@@ -26,7 +26,9 @@ from conveyor.laws.transition import (
     transition_length,
 )
 from conveyor.laws.vertical_curve import (
+    CEMA_LEAST_TENSION,
     TroughSection,
+    buckling_radius,
     cema_lift_off_radius,
     lift_off_radius,
     trough_section,
@@ -87,6 +89,8 @@ class CurveCheck:
         Highest and lowest tension of a strip that occur on it [N/m].
     cema_lift_off : float or None
         Least radius against lift-off that CEMA recommends; concave curves only.
+    cema_buckling : float or None
+        Least radius at which the middle keeps the tension that CEMA asks for; convex curves only.
     """
 
     section: str
@@ -101,6 +105,7 @@ class CurveCheck:
     most: float | None = None
     least: float | None = None
     cema_lift_off: float | None = None
+    cema_buckling: float | None = None
 
 
 @dataclass(frozen=True)
@@ -297,11 +302,13 @@ def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[C
             continue
         tensions = [float(end[i]) for state in states for end in (state.starts, state.ends)]
         lowest, highest = min(tensions), max(tensions)
-        lift = by_cema = None
+        lift = by_cema = slack_by_cema = None
         if section.curve == "concave":
             pull, weight = max(0.0, highest), {"belt_mass": stretch.belt_mass, "gravity": line.gravity}
             lift = lift_off_radius(pull, inclination=section.steepest, uplift=line.uplift, **weight)
             by_cema = cema_lift_off_radius(pull, **weight)
+        else:
+            slack_by_cema = _cema_buckling_radius(line, stretch, lowest)
         strips = _vertical_strips(line, stretch, section, lowest, highest)
         yield CurveCheck(
             stretch.section,
@@ -313,7 +320,23 @@ def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[C
             lift,
             *strips,
             by_cema,
+            slack_by_cema,
         )
+
+
+def _cema_buckling_radius(line: Line, stretch: Stretch, lowest: float) -> float | None:
+    """Least radius of a convex curve at which the middle keeps CEMA's tension [m]; infinite where none does."""
+    width, stiffness = line.belt.width, line.belt.tensile_stiffness
+    if stiffness is None:
+        return None
+    if lowest / width <= CEMA_LEAST_TENSION:
+        return math.inf
+    return buckling_radius(
+        lowest / width,
+        distance=trough_of_stretch(stretch, width).middle_below,
+        stiffness_per_width=stiffness,
+        least_per_width=CEMA_LEAST_TENSION,
+    )
 
 
 def _vertical_strips(line: Line, stretch: Stretch, section: RouteSection, lowest: float, highest: float) -> StripLimits:

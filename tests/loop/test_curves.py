@@ -9,9 +9,10 @@ import pytest
 
 from conveyor.checks import run_checks
 from conveyor.errors import InputError, NoSolutionError
+from conveyor.laws.vertical_curve import trough_section
 from conveyor.line.strands import Strands
 from conveyor.line.stretches import CurveLoads, masses_on_rolls
-from conveyor.loop.belt_duty import belt_duty
+from conveyor.loop.belt_duty import belt_duty, trough_of_stretch
 from conveyor.loop.belt_limits import LEAST_EDGE_TENSION
 from conveyor.loop.tension_coupling import next_convergence, pressing_masses
 from conveyor.pipeline import calculate
@@ -120,6 +121,24 @@ def test_least_radii_are_those_of_the_laws():
     said = [w for w in told(tight, closed(tight)) if 'section "dip"' in w]
     assert any("carry: the empty belt lifts off on the concave curve of 60 m; at least" in w for w in said)
     assert any("carry: a strip of the belt goes slack" in w for w in said)
+
+
+def test_the_middle_of_a_hill_keeps_thirty_pounds_an_inch_by_cema():
+    """r = b sin β E/(9 (T - 30)) in feet, for three equal rolls; beside DIN's it is as 4.5 N/mm is to 30 lbf/in."""
+    hill = [VALLEY[0], VALLEY[1] | {"curve": "convex"}, VALLEY[2]]
+    found = closed(curved(hill))
+    carry, back = ({(c.section, c.strand): c for c in belt_duty(found).curves}["dip", s] for s in ("carry", "return"))
+    (stretch,) = (s for s in found.line.loop.stretches if (s.section, s.strand) == ("dip", "carry"))
+    width, pound, inch = found.line.belt.width, 4.4482216152605, 0.0254
+    middle = trough_of_stretch(stretch, width).middle_below
+    stiffness = found.line.belt.tensile_stiffness / (pound / inch)  # [lbf/in]
+    tension = carry.lowest / width / (pound / inch)
+    assert carry.cema_buckling == pytest.approx(middle * stiffness / (tension - 30.0), rel=1e-12)
+    equal = trough_section(width, middle_roll_length=width / 3.0, trough_angle=math.radians(35.0))
+    assert equal.middle_below == pytest.approx(width * math.sin(math.radians(35.0)) / 9.0, rel=1e-12)
+    over = (carry.lowest / width - LEAST_EDGE_TENSION) / (carry.lowest / width - 30.0 * pound / inch)
+    assert carry.cema_buckling == pytest.approx(over * carry.buckling, rel=1e-12)
+    assert (back.cema_buckling, carry.cema_lift_off) == (0.0, None)
 
 
 def test_a_curve_that_stands_upright_is_refused():

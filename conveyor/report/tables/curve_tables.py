@@ -50,15 +50,18 @@ def vertical_curves(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
         Column("against lift-off by CEMA", "length", "cema_lift_off", sparse=True),
         Column("minimum against overstress", "length", "overstress"),
         Column("minimum against slack strips", "length", "buckling"),
+        Column("against slack strips by CEMA", "length", "cema_buckling", sparse=True),
         Column("highest in a strip", "strength", "most"),
         Column("lowest in a strip", "strength", "least"),
     )
     every = [load.found.belt_duty.curves for load in loads]
     rows = _worst_of_cases(
         every, lowest=min, highest=max, lift_off=max, overstress=max, buckling=max, most=max, least=min,
-        cema_lift_off=max,
+        cema_lift_off=max, cema_buckling=max,
     )  # fmt: skip
     notes = ["By CEMA: 1.11 T over the belt's weight, not checked."] if any(row.cema_lift_off for row in rows) else []
+    if any(row.cema_buckling for row in rows):
+        notes.append("By CEMA: the middle of a convex curve keeps 30 lbf/in (5.25 N/mm), not checked.")
     notes += [_USUAL_STIFFNESS] if rows and a.line.belt.stiffness is None else []
     if rows and a.line.wind_speed is not None:
         notes.append("Against lift-off: with the wind of ambient.wind_speed under the empty belt.")
