@@ -17,6 +17,7 @@ import typer
 
 from conveyor.cli.application import StudyStop, app
 from conveyor.errors import ConveyorError, InputError
+from conveyor.report.matplotlib_settings import refuse_wrong_date
 from conveyor.text.printable import escape_controls
 
 EXIT_DONE: Final = 0
@@ -42,6 +43,7 @@ def main() -> None:
     """Run the command line; errors become one message on stderr and an exit code, never a traceback."""
     _set_up_streams()
     try:
+        refuse_wrong_date()  # scipy fails on it as it is imported
         code = app(None if sys.argv[1:] else ["--help"], prog_name="conveyor", standalone_mode=False)
         sys.stdout.flush()
     except InputError as error:

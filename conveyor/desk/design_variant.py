@@ -53,14 +53,25 @@ def guarded_resolver(base: Path, shelves: Iterable[Path]) -> CompoundResolver:
                 target = (base / name).resolve()
             except (OSError, RuntimeError, ValueError):
                 target = Path()
-            if not any(target.is_relative_to(folder) for folder in allowed):
+            if name.startswith("~") or not any(target.is_relative_to(folder) for folder in allowed):
                 raise InputError(
                     f'compound "{name}": outside the folder of the spec and the shelves; copy it there, or start with '
                     "--shelf FOLDER"
                 )
-        return resolve(name)
+        try:
+            return resolve(name)
+        except InputError as error:
+            raise InputError(_without_folders(str(error), (base, base.resolve(), *folders(listed)))) from None
 
     return resolve_inside
+
+
+def _without_folders(words: str, known: Iterable[Path]) -> str:
+    """Words without the folders of files, which are not the page's to know."""
+    for folder in known:
+        if folder.is_absolute():
+            words = words.replace(f"{folder}{os.sep}", "")
+    return words
 
 
 def change_conveyor(

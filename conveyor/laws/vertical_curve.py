@@ -131,7 +131,7 @@ CEMA_LIFT_OFF: Final = 1.11
 1/1.11 (CEMA, Belt Conveyors for Bulk Materials, vertical curves; as commonly reproduced)."""
 
 CEMA_LEAST_TENSION: Final = 30.0 * 4.4482216152605 / 0.0254
-"""That CEMA keeps in the middle of a convex curve, 30 lbf/in, in r = b sin β E/(9 (T_c - 30)) of three equal rolls [N/m]
+"""That CEMA keeps in the middle of a convex curve, 30 lbf/in, in r = b sin β E/(9 (T_c - 30)) of equal rolls [N/m]
 (CEMA, Belt Conveyors for Bulk Materials, vertical curves; as commonly reproduced)."""
 
 

@@ -142,10 +142,29 @@ def test_compounds_outside_the_folder_are_refused_without_being_read(tmp_path, n
     inside = tmp_path / "work"
     inside.mkdir()
     (tmp_path / "secret.yaml").write_text("password: swordfish\n", encoding="utf-8")
-    with pytest.raises(InputError) as refused:
+    with pytest.raises(InputError, match="outside the folder of the spec|unknown compound") as refused:
         guarded_resolver(inside, ())(name)
     assert "swordfish" not in str(refused.value)
     assert "password" not in str(refused.value)
+    assert str(tmp_path) not in str(refused.value)
+
+
+def test_a_compound_of_the_home_folder_is_refused(tmp_path, monkeypatch):
+    """Also one that there is: "~" is a name like any other to the path, and the user's folder to the shelf."""
+    for variable in ("HOME", "USERPROFILE"):
+        monkeypatch.setenv(variable, str(tmp_path))
+    (tmp_path / "own.yaml").write_text(shelf.dump(shelf.compound("s100")), encoding="utf-8")
+    inside = tmp_path / "work"
+    inside.mkdir()
+    assert shelf.compound("~/own.yaml").kind == "measured"
+    with pytest.raises(InputError, match="outside the folder"):
+        guarded_resolver(inside, ())("~/own.yaml")
+
+
+def test_what_is_wrong_in_a_compound_does_not_tell_its_folder(tmp_path):
+    (tmp_path / "bad.yaml").write_text("colour: black\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"^bad\.yaml:1:1 ") as refused:
+        guarded_resolver(tmp_path, ())("bad.yaml")
     assert str(tmp_path) not in str(refused.value)
 
 
