@@ -136,10 +136,7 @@ def add_impulses(
     impulse: Array, columns: Array, of_take_up: Array, speed: Array, lacking: Array
 ) -> tuple[Array, Array]:
     """Speeds, and the impulse lacking at the take-up, after impulses at places with these responses."""
-    for j in range(impulse.shape[1]):
-        speed = speed + impulse[:, j, None] * columns[:, j]
-        lacking = lacking + impulse[:, j] * of_take_up[:, j]
-    return speed, lacking
+    return speed + (impulse[:, None] @ columns)[:, 0], lacking + np.vecdot(impulse, of_take_up)
 
 
 def _flat_indices(places: Integers, masses: int, first: int, count: int) -> tuple[Integers, Integers, Integers]:
@@ -202,19 +199,22 @@ class WaveSolver:
         diagonal, beside = self.mass[belts], np.zeros((belts.size, self.mass.shape[1]))
         diagonal[:, :-1] += damping
         diagonal[:, 1:] += damping
-        beside[:, :-1] = -damping
-        lower, off, info = dpttrf(diagonal.ravel(), beside.ravel()[:-1])
+        np.negative(damping, out=beside[:, :-1])
+        lower, off, info = dpttrf(diagonal.reshape(-1), beside.reshape(-1)[:-1])
         if info != 0:
             raise NoSolutionError("the masses of the belt must be positive")
-        self.lower[belts], self.off[belts] = lower.reshape(beside.shape), np.append(off, 0.0).reshape(beside.shape)
+        beside.reshape(-1)[:-1] = off
+        self.lower[belts], self.off[belts] = lower.reshape(beside.shape), beside
         solved, _ = dpttrs(lower, off, self.units[:, belts].reshape(len(self.units), -1).T)
         made = solved.T.reshape(-1, *beside.shape)
         pair, columns = made[0], made[1:]
         own, stiff, carriage = pair[end] - pair[:, 0], self.stiff[belts], self.carriage[belts]
-        kappa = np.where(stiff, 1.0 / own, carriage / (1.0 + carriage * own))
+        kappa = carriage / (1.0 + carriage * own)
+        if self.keeps:
+            kappa = np.where(stiff, 1.0 / own, kappa)
         of_take_up = kappa * (columns[:, *end] - columns[:, :, 0])
         self.pair[belts], self.kappa[belts], self.of_take_up[belts] = pair, kappa, of_take_up.T
-        self.columns[belts] = np.moveaxis(columns - pair * of_take_up[:, :, None], 0, 1)
+        self.columns[belts] = (columns - pair * of_take_up[:, :, None]).transpose(1, 0, 2)
         columns = self.columns
         self.pulleys, self.lumps = (
             _ImpulseResponse(
