@@ -21,11 +21,12 @@ from conveyor.dynamics.belt_chain import Array, Chain, InitialState, Integers, M
 from conveyor.dynamics.wave_pulleys import (
     DriveGroup,
     GroupResponse,
+    motor_lines,
     solve_pulleys,
     speed_after_friction,
     winch_direction,
 )
-from conveyor.dynamics.wave_record import MotionRecord, stored_energy
+from conveyor.dynamics.wave_record import BESIDE, MotionRecord, stored_energy
 from conveyor.dynamics.wave_solver import BeltLaw, WaveSolver, add_impulses
 from conveyor.errors import NoSolutionError
 
@@ -80,14 +81,16 @@ class _Motion:
         self.solver, self.law = WaveSolver(chain, self.dt), BeltLaw(chain, self.dt, start.tension)
         self.solver.update_damping(self.law.eased)
         self.record = MotionRecord(chain, start, self.law, step=step, lasts=lasts, samples=samples)
+        self.motors = motor_lines(chain, machines, self.dt)
         self._set_up()
         self._answered()
         self.speed, self.tension = start.speed, start.tension
         self.stretching = np.diff(start.speed, axis=1)
         self.viscous = self.tau_k * self.law.eased * self.stretching
+        self.strained = np.empty((chain.end.size, chain.mass.shape[1] + 1))
         self.resisting = start.resisting * self.loose
         self.driving, self.rims = start.driving, start.rims
-        self.gripping = np.ones(chain.nodes.shape, dtype=bool)
+        self.slipped = np.zeros(chain.nodes.shape, dtype=bool)
         self.rubbing = start.resisting[self.rows, self.at]
         self.on_pulleys = start.speed[self.rows, self.at]  # exactly 0 at rest, which rounding in the solver would blur
         self.lumps_rest = start.speed[self.rows, chain.lumps] == 0.0
@@ -100,6 +103,7 @@ class _Motion:
         self.at = at = chain.nodes
         self.loose = np.ones_like(chain.mass)
         self.loose[self.rows, at] = 0.0  # friction there belongs to the pulley
+        self.pulse = np.where(np.arange(n + 1) <= chain.end[:, None], step, 0.0)
         alone = self.loose.copy()
         alone[self.rows, chain.lumps] = 0.0
         self.over_mass, self.under_mass = alone * step / chain.mass, alone * chain.mass / step
@@ -109,23 +113,23 @@ class _Motion:
         self.winds = bool(np.any(chain.winch[0]))
         self.tau_k = chain.retardation * chain.stiffness
         self.flat = self.rows * (n + 1) + at
-        self.turns = [DriveGroup.of(chain, self.machines, step, k) for k in self.solver.pulleys.turns()]
+        self.behind = self.one * (n + 2) + chain.end + 1
+        self.turns = [DriveGroup.of(chain, self.machines, self.motors, step, k) for k in self.solver.pulleys.turns()]
 
     def _answered(self) -> None:
         """Update the responses of the pulleys after a factorisation."""
         self.half_k = 0.5 * self.tau_k * self.solver.shares
         self.replies = [GroupResponse.of(self.solver, turn, self.dt) for turn in self.turns]
+        self.lumps_reach = self.dt * self.solver.lumps.own
 
     def followed(self) -> Record:
         """Take every step."""
-        rolling = self.chain.resisting(self.speed)
+        self._strain(self.tension)
         self.beside = np.empty((2, *self.at.shape))
         for turn in self.turns:
-            k, on = turn.drives, self.on_pulleys[:, turn.drives]
-            self.beside[:, :, k] = (
-                np.where(turn.ends, self.chain.held[:, None], self.tension.take(turn.sides))
-                + turn.lying + turn.shares(on, on == 0.0, rolling.take(turn.at)) * self.rubbing[:, k]
-            )  # fmt: skip
+            k = turn.drives
+            _, shares = turn.belt_friction(self.on_pulleys[:, k])
+            self.beside[:, :, k] = self.strained.take(turn.strained) + turn.lying + shares * self.rubbing[:, k]
         beside = self.beside
         for i in range(self.lasts[0]):
             if i == self.lasts[len(self.speed) - 1]:
@@ -139,9 +143,9 @@ class _Motion:
         self.record.end_belts(count, stored_energy(self.chain, self.speed, self.rims, self.law))
         first = slice(count)
         self.chain, self.machines = self.chain.of_belts(first), self.machines.of_belts(first)
-        beside = self.beside[:, first]
+        beside, self.motors = self.beside[:, first], self.motors[:, :, first]
         for name, value in vars(self).items():
-            if isinstance(value, np.ndarray):
+            if isinstance(value, np.ndarray) and name != "motors":
                 setattr(self, name, value[first])
         self.beside = beside
         self.law.drop_belts(count)
@@ -161,71 +165,69 @@ class _Motion:
             self.winding = np.clip(wanted, self.winding - most, self.winding + most)
         if self.solver.update_damping(self.law.eased):
             self._answered()
-        change, lacking = self.solver.change(self._impulse(), self.speed, self.winding)
+        pushed = self.driving - self.rubbing
+        change, lacking = self.solver.change(self._impulse(pushed), self.speed, self.winding)
         new, rolling = self.speed + change, chain.resisting(self.speed)
         new, lacking, lumped = self._rubbed(new, lacking, rolling)
         if self.at.size:
-            new, lacking = self._driven(i, new, lacking, rolling)
+            new, lacking = self._driven(i, new, lacking, pushed)
         # damping: the solver's share of τ k on half the new speeds, before single masses rub, the rest on the old
         damping = self.viscous + self.half_k * (new[:, 1:] - new[:, :-1] - self.stretching)
         free = new + self.resisting * self.over_mass
-        allowed = np.where(self.speed == 0.0, self.still, rolling * self.over_mass)
+        allowed = rolling * self.over_mass
+        np.copyto(allowed, self.still, where=self.speed == 0.0)
         rubbed = np.minimum(np.maximum(free, -allowed), allowed)
         new = free - rubbed
         self.resisting = rubbed * self.under_mass
         self.resisting[self.rows, chain.lumps] = lumped
         self.pulled = chain.held - lacking / self.dt[:, 0]
-        shown, spread = self.tension + damping, self.stretching
-        self.stretching = new[:, 1:] - new[:, :-1]
+        shown = self.tension + damping
         if self.law.relaxes:
             damping = damping + self.law.branch
-        self.record.add_work(self.speed + new, spread + self.stretching, self.resisting, damping)
-        self.speed = new
+        self.record.keep(i, tension=shown, speed=new, pulled=self.pulled, friction=self.resisting, damping=damping)
+        self.speed, self.stretching = new, new[:, 1:] - new[:, :-1]
         self.tension = self.law.stretch(self.stretching)
         self.viscous = self.tau_k * self.law.eased * self.stretching
-        self.record.keep(i, shown, new, self.pulled, new[self.one, chain.end] - new[:, 0])
 
-    def _impulse(self) -> Array:
-        """Impulse on every mass over a step, with the last friction and drive forces."""
-        acting, strained = self.sinking - self.resisting, self.tension + self.viscous
-        acting[:, 1:] -= strained
-        acting[:, :-1] += strained
-        acting[:, 0] -= self.chain.held  # cancels exactly at rest
-        acting[self.one, self.chain.end] += self.chain.held
-        acting[self.rows, self.at] += self.driving - self.rubbing
-        acting *= self.dt
+    def _strain(self, tension: Array) -> None:
+        """Set the tensions of the cells between those of the take-up at both ends."""
+        self.strained[:, 1:-1] = tension
+        self.strained[:, 0] = self.chain.held
+        self.strained.reshape(-1)[self.behind] = self.chain.held
+
+    def _impulse(self, pushed: Array) -> Array:
+        """Impulse on every mass over a step, with the last friction and these forces on driven masses."""
+        self._strain(self.tension + self.viscous)
+        acting = self.sinking - self.resisting
+        acting -= self.strained[:, :-1]
+        acting += self.strained[:, 1:]
+        acting.reshape(-1)[self.flat] += pushed
+        acting *= self.pulse
         return acting
 
-    def _driven(self, i: int, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array]:
+    def _driven(self, i: int, new: Array, lacking: Array, pushed: Array) -> tuple[Array, Array]:
         """Speeds with new pulley forces, in turn for coupled pulleys, and the impulse lacking at the take-up."""
-        impulse, beside = self.dt * (self.driving - self.rubbing), np.empty_like(self.beside)
-        record = {name: values[i, : len(new)] for name, values in self.record.drives.items()}
-        friction = self.record.frictions[i, : len(new)]
-        self.record.going[i, : len(new)] = self.speed.take(self.flat)
+        impulse, record = self.dt * pushed, self.record.drives[i, :, : len(new)]
+        beside, (force, motor, rim, belt, _, _, holding, rubbing, before) = record[BESIDE], record
+        before[:] = self.speed.take(self.flat)
         for turn, reply in zip(self.turns, self.replies, strict=True):
-            k, going, rolls = turn.drives, new.take(turn.at), rolling.take(turn.at)
-            on = self.on_pulleys[:, k]
-            rests = on == 0.0
-            faster = new.take(turn.ahead) - new.take(turn.astern) - self.stretching.take(turn.sides)
-            cells = self.tension.take(turn.sides) + self.viscous.take(turn.sides) + reply.softer * faster
-            tight = (self.chain.held - lacking / self.dt[:, 0])[:, None]
+            k, places = turn.drives, new.take(turn.places)
+            going, on = places[0], self.on_pulleys[:, k]
+            faster = places[1:3] - places[3:] - self.stretching.take(turn.cells)
+            cells = self.strained.take(turn.strained) + reply.softer * faster - turn.ends * (lacking[:, None] / self.dt)
+            friction, shares = turn.belt_friction(on)
             moved = solve_pulleys(
                 turn, i, step=self.dt, answer=reply.own, reach=reply.reach, rim=self.rims[:, k],
                 free=going - reply.own * impulse[:, k],
-                sides=np.where(turn.ends, tight, cells) + turn.lying + turn.inert * (going - on)
-                - reply.yields * going,
-                yields=reply.yields, friction=np.where(rests, turn.stuck, rolls), shares=turn.shares(on, rests, rolls),
-                last=(self.driving[:, k], self.beside[:, :, k]), gripped=self.gripping[:, k],
+                sides=cells + turn.lying + turn.inert * (going - on) - reply.yields * going,
+                yields=reply.yields, friction=friction, shares=shares,
+                last=(self.driving[:, k], self.beside[:, :, k]), slipped=self.slipped[:, k],
             )  # fmt: skip
-            record["force"][:, k], record["motor"][:, k] = moved.force, moved.motor
-            record["rim"][:, k], record["belt"][:, k] = moved.rim, moved.belt
-            record["holding"][:, k], beside[:, :, k] = moved.holding, moved.sides
-            friction[:, k], self.gripping[:, k] = moved.friction, moved.grips
-            change = (moved.belt - going) / reply.own
-            new, lacking = add_impulses(change, reply.columns, reply.of_take_up, new, lacking)
-        record["arriving"][:], record["leaving"][:] = self.beside = beside
-        self.driving, self.rubbing = record["force"], friction
-        self.rims, self.on_pulleys = record["rim"], record["belt"]
+            force[:, k], motor[:, k], rim[:, k], belt[:, k] = moved.force, moved.motor, moved.rim, moved.belt
+            holding[:, k], rubbing[:, k] = moved.holding, moved.friction
+            beside[:, :, k], self.slipped[:, k] = moved.sides, moved.slips
+            new, lacking = add_impulses((moved.belt - going) / reply.own, reply.columns, reply.of_take_up, new, lacking)
+        self.driving, self.rubbing, self.rims, self.on_pulleys, self.beside = force, rubbing, rim, belt, beside
         return new, lacking
 
     def _rubbed(self, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array, Array]:
@@ -235,11 +237,12 @@ class _Motion:
             return new, lacking, np.zeros(at.shape)
         earlier, speed = self.resisting.take(at), new.take(at)
         most = self.lumps_loose * np.where(self.lumps_rest, self.lumps_stuck, rolling.take(at))
-        over_force, impulse = self.dt * answer.own, np.zeros_like(most)
-        free, allowed = over_force * earlier, over_force * most
+        free, allowed = self.lumps_reach * earlier, self.lumps_reach * most
+        impulse = np.empty_like(most)
         for j in range(at.shape[1]):
             left = speed_after_friction(speed[:, j] + free[:, j], allowed[:, j], allowed[:, j])
             self.lumps_rest[:, j] = left == 0.0
             impulse[:, j] = (left - speed[:, j]) / answer.own[:, j]
-            speed = speed + impulse[:, j, None] * answer.mutual[:, j]
+            if j + 1 < at.shape[1]:
+                speed = speed + impulse[:, j, None] * answer.mutual[:, j]
         return *answer.moved(impulse, new, lacking), earlier - impulse / self.dt

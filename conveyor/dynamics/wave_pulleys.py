@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,69 +17,84 @@ _SIDES, _FROM = (
 )  # before and behind a pulley
 
 
+def motor_lines(chain: Chain, machines: Machines, step: Array) -> Array:
+    """Motors and brakes on their characteristics at every step, shape (6, steps, s, d).
+
+    Share of the limit, brake force, motor force at a standing rim, its fall by the speed at the begin and at the end of
+    the step, rim mass with the latter. A rim meets its motor's characteristic in the middle of a step while that
+    resolves the approach, else later, so that nothing oscillates.
+    """
+    gives = step * machines.slope
+    late = np.maximum(0.5, 1.0 - np.divide(chain.rim, gives, out=np.full_like(gives, 0.5), where=gives > 0.0))
+    slope = machines.slope * (machines.share > 0.0)
+    later = late * slope
+    return np.stack([
+        machines.share, machines.brake, slope * machines.reference, slope - later, later, chain.rim + step * later
+    ])  # fmt: skip
+
+
 @dataclass(frozen=True, eq=False)
 class DriveGroup:
     """Constants of drives that are solved together; shape (2, s, d) for both sides, negative behind.
 
-    Flat indices of their places and adjacent cells; `ends` is true next to the take-up. `reverse` is infinite at a
-    backstop, else 0. `late` is the time within a step at which a rim meets its motor's characteristic: the middle while
-    the step resolves the approach, else later, so that nothing oscillates.
+    Flat indices: `places` of their masses and of those after and before both adjacent cells, shape (5, s, d); `cells`
+    of the adjacent cells, `strained` with the take-up at both ends. `ends` is 1 next to the take-up. `reverse` is
+    infinite at a backstop, else 0.
     """
 
     drives: list[int] | slice
-    chain: Chain
     machines: Machines
-    at: Integers
-    sides: Integers
-    ahead: Integers
-    astern: Integers
-    ends: NDArray[np.bool_]
+    motors: Array
+    rim: Array
+    grip: Array
+    places: Integers
+    cells: Integers
+    strained: Integers
+    ends: Array
     lying: Array
     inert: Array
     tau_k: Array
-    stuck: Array
+    friction: Array
     at_rest: Array
+    known: float
     reverse: Array
-    late: Array
 
     @classmethod
-    def of(cls, chain: Chain, machines: Machines, step: Array, k: list[int]) -> DriveGroup:
+    def of(cls, chain: Chain, machines: Machines, motors: Array, step: Array, k: list[int]) -> DriveGroup:
         """Some drives of every belt."""
         drives: list[int] | slice = slice(None) if len(k) == chain.nodes.shape[1] else k
         (s, n), at, before = chain.stiffness.shape, chain.nodes[:, drives], chain.before[:, :, drives]
         rows = np.arange(s)[:, None]
         side = np.stack([np.maximum(at - 1, 0), np.minimum(at, n - 1)])
         astern = rows * (n + 1) + side
-        rim, gives = chain.rim[:, drives], step * machines.slope[:, drives]
         weight, mass, stuck = chain.weight[rows, at], chain.mass[rows, at], chain.sticking[rows, at]
         return cls(
             drives,
-            replace(chain, rim=rim, grip=chain.grip[:, drives], backstop=chain.backstop[:, drives],
-                    before=before),
-            replace(
-                machines, slope=machines.slope[:, drives], reference=machines.reference[..., drives],
-                share=machines.share[..., drives], brake=machines.brake[..., drives], limits=machines.limits[:, drives],
-                drag=machines.drag[:, drives],
-            ),
-            at=rows * (n + 1) + at, sides=rows * n + side, ahead=astern + 1, astern=astern,
-            ends=np.stack([at == 0, at == chain.end[:, None]]),
+            replace(machines, limits=machines.limits[:, drives], drag=machines.drag[:, drives]),
+            motors[..., drives], chain.rim[:, drives], chain.grip[:, drives],
+            places=np.concatenate([(rows * (n + 1) + at)[None], astern + 1, astern]),
+            cells=rows * n + side, strained=rows * (n + 2) + np.stack([at, at + 1]),
+            ends=np.stack([at == 0, at == chain.end[:, None]]).astype(float),
             lying=np.stack([before[1], before[1] - weight]),
             inert=np.stack([before[0], before[0] - mass]) / step,
-            tau_k=chain.retardation * chain.stiffness[rows, side], stuck=stuck, at_rest=_safe_ratio(before[5], stuck),
+            tau_k=chain.retardation * chain.stiffness[rows, side],
+            friction=np.stack([before[2:5], chain.friction[:, rows, at]], axis=1),
+            at_rest=np.stack([_safe_ratio(before[5], stuck), stuck]), known=chain.known,
             reverse=np.where(chain.backstop[:, drives], np.inf, 0.0),
-            late=np.maximum(0.5, 1.0 - np.divide(rim, gives, out=np.full_like(gives, 0.5), where=gives > 0.0)),
         )  # fmt: skip
 
-    def shares(self, on: Array, rests: NDArray[np.bool_], rolling: Array) -> Array:
-        """Share of the friction on driven masses before the pulleys, and behind them negative [-]."""
-        parabola, size = self.chain.before[2:5], np.minimum(np.abs(on), self.chain.known)
-        moving = _safe_ratio(parabola[0] + size * (parabola[1] + size * parabola[2]), rolling)
-        return np.asarray(np.where(rests, self.at_rest, moving) - _FROM)
+    def belt_friction(self, on: Array) -> tuple[Array, Array]:
+        """Friction on driven masses at their speed [N]; its share before the pulleys, and behind them negative [-]."""
+        size = np.minimum(np.abs(on), self.known)
+        friction = self.friction[0] + size * (self.friction[1] + size * self.friction[2])
+        friction[0] = _safe_ratio(friction[0], friction[1])
+        np.copyto(friction, self.at_rest, where=on == 0.0)
+        return friction[1], friction[0] - _FROM
 
 
 def _safe_ratio(part: Array, whole: Array) -> Array:
     """Part over whole; 0 if the whole is 0."""
-    return np.divide(part, whole, out=np.zeros_like(whole), where=whole > 0.0)
+    return np.divide(part, whole, out=np.zeros(whole.shape), where=whole > 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,12 +116,11 @@ class GroupResponse:
     def of(cls, solver: WaveSolver, turn: DriveGroup, step: Array) -> GroupResponse:
         """Response of the present system."""
         k, pulleys = turn.drives, solver.pulleys
-        softer = 0.5 * turn.tau_k * solver.shares.take(turn.sides)
         own, of_take_up = pulleys.own[:, k], pulleys.of_take_up[:, k]
-        apart = pulleys.beside[:, :, k] * _SIDES
-        tight = -of_take_up / (own * step)
-        yields = turn.inert + np.where(turn.ends, tight, softer * apart)
-        return cls(own, own * step, pulleys.columns[:, k], of_take_up, softer, yields)
+        reach, apart = own * step, pulleys.beside[:, :, k] * _SIDES
+        softer = 0.5 * turn.tau_k * solver.shares.take(turn.cells) * (1.0 - turn.ends)
+        yields = turn.inert + softer * apart - turn.ends * (of_take_up / reach)
+        return cls(own, reach, pulleys.columns[:, k], of_take_up, softer, yields)
 
 
 def winch_direction(over: Array, band: Array) -> Array:
@@ -113,8 +128,7 @@ def winch_direction(over: Array, band: Array) -> Array:
     return np.asarray(np.where(over < -band, 1.0, np.where(over > band, -1.0, 0.0)))
 
 
-@dataclass(frozen=True, eq=False)
-class PulleyState:
+class PulleyState(NamedTuple):
     """Driven pulleys after a step: forces on the belt, of motor, brake and friction, side tensions [N], speeds."""
 
     force: Array
@@ -124,7 +138,7 @@ class PulleyState:
     rim: Array
     belt: Array
     sides: Array
-    grips: NDArray[np.bool_]
+    slips: NDArray[np.bool_]
 
 
 def speed_after_friction(free: Array, forward: Array, backward: Array) -> Array:
@@ -134,58 +148,57 @@ def speed_after_friction(free: Array, forward: Array, backward: Array) -> Array:
 
 def solve_pulleys(
     turn: DriveGroup, i: int, *, step: Array, answer: Array, reach: Array, rim: Array, free: Array, sides: Array,
-    yields: Array, friction: Array, shares: Array, last: tuple[Array, Array], gripped: NDArray[np.bool_],
+    yields: Array, friction: Array, shares: Array, last: tuple[Array, Array], slipped: NDArray[np.bool_],
 ) -> PulleyState:  # fmt: skip
     """Solve motors, brakes, rims and the belt on them together; a motor on its characteristic, or at its limit.
 
     `free` is the belt's speed without the pulley, `answer` its change by an impulse, `reach` by a force over the step;
     `sides` are the tensions before and behind at zero speed there and without friction, `yields` their change by a
     speed, `shares` that by friction. They include mass and damping of the half cells up to the pulley, so that a sudden
-    force is split by the impedances of both sides, however long the cells. A belt that `gripped` and now slips is taken
-    to start slipping in the middle of the step: force and tensions are the mean of the `last` and the new ones. At the
-    start of the step they would make the tension oscillate from cell to cell.
+    force is split by the impedances of both sides, however long the cells. A belt that had not `slipped` and now slips
+    is taken to start slipping in the middle of the step: force and tensions are the mean of the `last` and the new
+    ones. At the start of the step they would make the tension oscillate from cell to cell.
     """
-    chain, machines, late = turn.chain, turn.machines, turn.late
-    most = machines.share[i] * machines.limit(rim)
-    brake, grip = machines.brake[i], chain.grip
-    on = most > 0.0
-    slope = machines.slope * on
-    base, rests = slope * machines.reference[i], reach * friction
+    grip = turn.grip
+    share, brake, base, early, later, mass = turn.motors[:, i]
+    most, rests = share * turn.machines.limit(rim), reach * friction
+    halts = reach * brake + rests
     for tried in range(2):
-        later = late * slope
-        base_now = base - (slope - later) * rim  # of the motor, without the part by the new speed
-        mass, push = chain.rim + step * later, chain.rim * rim + step * base_now
+        base_now = base - early * rim  # of the motor, without the part by the new speed
+        push = turn.rim * rim + step * base_now
         heavy = 1.0 + answer * mass
-        stop = (reach * brake + rests) / heavy
+        stop = halts / heavy
         common = speed_after_friction((free + answer * push) / heavy, stop, stop + turn.reverse)
-        against = np.sign(common) * friction
-        rubbed = sides + shares * against
-        force = (common - free) / reach + against
-        bears = grip * np.maximum(rubbed + yields * common, 0.0)
+        taken = np.sign(common) * friction
+        rubbed = sides + shares * taken
+        force = (common - free) / reach + taken
+        tensions = rubbed + yields * common
+        bears = grip * np.maximum(tensions, 0.0)
         forward, slips = force > bears[1], force < -bears[0]
         slips |= forward
-        belt, turned, begins = common, common, None
+        belt, turned = common, common
         if slips.any():
             pushed, slack = np.where(forward, rubbed[1], -rubbed[0]), np.where(forward, -yields[1], yields[0])
             eased = 1.0 + reach * grip * slack
             rub = rests / eased
-            earlier, begins = last[0] + grip * np.where(forward, -last[1][1], last[1][0]), gripped & slips
+            earlier, begins = last[0] + grip * np.where(forward, -last[1][1], last[1][0]), slips & ~slipped
             driven = grip * pushed + np.where(begins, 0.5 * earlier, 0.0)
             slid = speed_after_friction((free + reach * driven) / eased, rub, rub)
             limit = driven - grip * slack * slid
             limit = np.where(forward, np.maximum(limit, 0.0), np.minimum(limit, 0.0))
             slid = np.where(limit == 0.0, speed_after_friction(free, rests, rests), slid)
             force = np.where(slips, limit, force)
-            stop = step * (brake + np.where(on, 0.0, machines.drag)) / mass
+            stop = step * (brake + np.where(most > 0.0, 0.0, turn.machines.drag)) / mass
             spun = speed_after_friction((push - step * force) / mass, stop, stop + turn.reverse)
             belt, turned = np.where(slips, slid, common), np.where(slips, spun, common)
+            taken = force - (belt - free) / reach
+            tensions = sides + yields * belt + shares * taken
+            tensions = np.where(begins, 2.0 * tensions - last[1], tensions)
         motor = base_now - later * turned
         beyond = np.abs(motor) > most
         if tried or not beyond.any():
             break
-        base, slope = np.where(beyond, np.copysign(most, motor), base), slope * ~beyond
-    taken = force - (belt - free) / reach
-    tensions = sides + yields * belt + shares * taken
-    if begins is not None:
-        tensions = np.where(begins, 2.0 * tensions - last[1], tensions)
-    return PulleyState(force, motor, (push - mass * turned) / step - force, taken, turned, belt, tensions, ~slips)
+        base, within = np.where(beyond, np.copysign(most, motor), base), ~beyond
+        early, later = early * within, later * within
+        mass = turn.rim + step * later
+    return PulleyState(force, motor, (push - mass * turned) / step - force, taken, turned, belt, tensions, slips)

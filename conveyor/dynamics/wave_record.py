@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
@@ -13,47 +12,34 @@ from conveyor.dynamics.wave_solver import BeltLaw
 from conveyor.errors import NoSolutionError
 
 _BLOCK = 32  # steps between two searches for extremes
+DRIVE_FIGURES: Final = ("force", "motor", "rim", "belt", "arriving", "leaving", "holding", "friction", "before")
+"""Figures of a drive at every step: seven as in `Record`, friction of the belt on its pulley [N], and speed of the belt
+there before the step [m/s]."""
+BESIDE: Final = slice(4, 6)
+"""Those that are tensions before and behind a pulley."""
+_TOLD = 7
 SLIDING_TIME: Final = 0.3
 """Time over which accelerations are means [s]: bulk that a wave's jump leaves behind slides by a T²/2 at most, 0.2 m at
 5 m/s² (general knowledge)."""
 
 
-@dataclass(eq=False)
 class _Extremes:
-    """Highest and lowest of values recorded step by step, and their steps."""
+    """Highest and lowest of values over the steps, and their steps."""
 
-    shape: tuple[int, ...]
-    block: Array = field(init=False)
-    count: int = 0
-    first: int = -1  # the initial state is recorded before the first step
+    def __init__(self, begin: Array) -> None:
+        self.high, self.low = begin.copy(), begin.copy()
+        self.high_at, self.low_at = np.zeros((2, *begin.shape))
 
-    def __post_init__(self) -> None:
-        self.block = np.empty((_BLOCK, *self.shape))
-        self.high, self.low = np.full(self.shape, -np.inf), np.full(self.shape, np.inf)
-        self.high_at, self.low_at = np.zeros(self.shape), np.zeros(self.shape)
-
-    def tell(self, values: Array) -> None:
-        """Record values of the first belts."""
-        self.block[self.count, : len(values)] = values
-        self.count += 1
-        if self.count == _BLOCK:
-            self.look(len(values))
-
-    def look(self, belts: int) -> None:
-        """Look for extremes of the first belts in what was recorded since."""
-        if self.count == 0:
-            return
-        block = self.block[: self.count, :belts]
-        for extreme, best, at, better in (
-            (block.argmax(axis=0), self.high[:belts], self.high_at[:belts], np.greater),
-            (block.argmin(axis=0), self.low[:belts], self.low_at[:belts], np.less),
+    def include(self, block: Array, first: int) -> None:
+        """Include the values of some steps of the first belts, from step `first` on."""
+        belts = block.shape[1]
+        for extremes, best, at, better in (
+            (block.max(axis=0), self.high[:belts], self.high_at[:belts], np.greater),
+            (block.min(axis=0), self.low[:belts], self.low_at[:belts], np.less),
         ):
-            extremes = np.take_along_axis(block, extreme[None], axis=0)[0]
             new = better(extremes, best)
             best[new] = extremes[new]
-            at[new] = (self.first + extreme)[new]
-        self.first += self.count
-        self.count = 0
+            at[new] = first + (block[:, new] == best[new]).argmax(axis=0)
 
     def include_series(self, *place: int, values: Array) -> None:
         """Include a further series of one of them, from the initial state on."""
@@ -76,8 +62,8 @@ def stored_energy(chain: Chain, speed: Array, rims: Array, law: BeltLaw) -> Arra
 class MotionRecord:
     """Record of belts from step to step; the first belts go on when others end.
 
-    `drives` and `take_up` are as in `Record`; `frictions` and `going` are friction [N] and speed before a step [m/s] of
-    the belt on driven pulleys.
+    Steps are kept in blocks, from which extremes, samples and work are taken together. `drives`, shape
+    (steps, 9, s, d), has the figures of `DRIVE_FIGURES`; `take_up` is as in `Record`.
     """
 
     def __init__(
@@ -86,13 +72,14 @@ class MotionRecord:
         s, n = chain.stiffness.shape
         self.chain, self.start, self.dt, self.lasts, self.belts = chain, start, step, lasts, s
         most = int(lasts.max())
-        self.extremes, self.speeds = _Extremes((s, n)), _Extremes((s, n + 1))
-        self.extremes.tell(start.tension)
-        self.speeds.tell(start.speed)
-        names = ("force", "motor", "rim", "belt", "arriving", "leaving", "holding")
-        self.drives = {name: np.zeros((most, *chain.nodes.shape)) for name in names}
+        self.extremes, self.speeds = _Extremes(start.tension), _Extremes(start.speed)
+        self.first, self.count = 0, 0  # first step of the block, and steps in it
+        self.shown, self.damping = np.empty((2, _BLOCK, s, n))
+        self.friction, self.speed = np.empty((_BLOCK, s, n + 1)), np.empty((_BLOCK + 1, s, n + 1))
+        self.speed[0] = start.speed
+        self.drives = np.zeros((most, len(DRIVE_FIGURES), *chain.nodes.shape))
         self.take_up = {name: np.zeros((most, s)) for name in ("tension", "belt")}
-        self.frictions, self.going = np.zeros((2, most, *chain.nodes.shape))
+        self.pulled = self.take_up["tension"]
         self.every = np.maximum(lasts // samples, 1)
         count = int((-(-lasts // self.every)).max())
         self.tensions: NDArray[np.float32] = np.zeros((count, s, n), np.float32)
@@ -101,7 +88,7 @@ class MotionRecord:
         self.earlier, self.fastest, self.slowest = np.stack([start.speed] * 2), *np.zeros((2, s, n + 1))
         self.taken, self.way, self.rubbed = np.zeros(s), *np.zeros((2, s, n + 1))
         self.damped, self.stored = np.zeros((s, n)), np.zeros((3, s))
-        self.first = stored_energy(chain, start.speed, start.rims, law)
+        self.initial = stored_energy(chain, start.speed, start.rims, law)
         self._group_samples()
 
     def _group_samples(self) -> None:
@@ -113,35 +100,61 @@ class MotionRecord:
 
     def end_belts(self, count: int, stored: Array) -> None:
         """End all but the first belts, with the energy stored in all that went on until now [J]."""
-        self.extremes.look(self.belts)
-        self.speeds.look(self.belts)
+        self._close_block()
         self.stored[:, count : self.belts] = stored[:, count:]
         self.belts = count
         self._group_samples()
 
-    def add_work(self, speed: Array, spread: Array, friction: Array, damping: Array) -> None:
-        """Add the work of a step along the belts, with twice the mean speeds and speed differences."""
-        self.way[: self.belts] += speed
-        self.rubbed[: self.belts] += friction * speed
-        self.damped[: self.belts] += damping * spread
+    def keep(self, i: int, *, tension: Array, speed: Array, pulled: Array, friction: Array, damping: Array) -> None:
+        """Keep a step: tensions and speeds, the take-up's tension, friction and damping forces."""
+        at, belts = self.count, self.belts
+        self.shown[at, :belts], self.speed[at + 1, :belts] = tension, speed
+        self.friction[at, :belts], self.damping[at, :belts] = friction, damping
+        self.pulled[i, :belts] = pulled
+        self.count += 1
+        if self.count == _BLOCK:
+            self._close_block()
 
-    def keep(self, i: int, tension: Array, speed: Array, pulled: Array, apart: Array) -> None:
-        """Record extremes, samples and the take-up after a step."""
-        self.extremes.tell(tension)
-        self.speeds.tell(speed)
-        taken = self.taken[: self.belts]
-        taken += self.dt[: self.belts] * apart
-        self.take_up["tension"][i, : self.belts], self.take_up["belt"][i, : self.belts] = pulled, taken
+    def _close_block(self) -> None:
+        """Take from the block what is recorded, and begin the next one."""
+        first, count, belts = self.first, self.count, self.belts
+        if count == 0:
+            return
+        tension, speed = self.shown[:count, :belts], self.speed[: count + 1, :belts]
+        self.extremes.include(tension, first)
+        self.speeds.include(speed[1:], first)
+        self._add_work(speed[1:] + speed[:-1])
+        self._add_belt(speed[1:])
+        steps = np.arange(first, first + count)
         for every, rows in self.due:
-            if i % every == 0:
-                self.tensions[i // every, rows], self.samples[i // every, rows] = tension[rows], speed[rows]
+            now = steps[steps % every == 0, None]
+            self.tensions[now // every, rows] = tension[now - first, rows]
+            self.samples[now // every, rows] = speed[1:][now - first, rows]
         for half, rows in self.halves:
-            if i % half == 0:
-                now = speed[rows]
-                change = (now - self.earlier[0, rows]) / (2.0 * half * self.dt[rows, None])
-                self.fastest[rows] = np.maximum(change, self.fastest[rows])
-                self.slowest[rows] = np.minimum(change, self.slowest[rows])
-                self.earlier[0, rows], self.earlier[1, rows] = self.earlier[1, rows], now
+            now = steps[steps % half == 0, None]
+            if now.size:
+                series = np.concatenate([self.earlier[:, rows], speed[1:][now - first, rows]])
+                change = (series[2:] - series[:-2]) / (2.0 * half * self.dt[rows, None])
+                self.fastest[rows] = np.maximum(change.max(axis=0), self.fastest[rows])
+                self.slowest[rows] = np.minimum(change.min(axis=0), self.slowest[rows])
+                self.earlier[:, rows] = series[-2:]
+        self.speed[0, :belts] = speed[-1]
+        self.first, self.count = first + count, 0
+
+    def _add_work(self, twice: Array) -> None:
+        """Add the work of the steps of the block along the belts, by twice the mean speeds."""
+        count, belts = twice.shape[:2]
+        self.way[:belts] += twice.sum(axis=0)
+        self.rubbed[:belts] += np.einsum("ksn,ksn->sn", self.friction[:count, :belts], twice)
+        self.damped[:belts] += np.einsum("ksn,ksn->sn", self.damping[:count, :belts], np.diff(twice, axis=2))
+
+    def _add_belt(self, speed: Array) -> None:
+        """Add the belt that the take-up has taken in over the steps of the block."""
+        count, belts = speed.shape[:2]
+        apart = speed[:, np.arange(belts), self.chain.end[:belts]] - speed[:, :, 0]
+        taken = np.cumsum(np.concatenate([self.taken[None, :belts], self.dt[:belts] * apart]), axis=0)
+        self.take_up["belt"][self.first : self.first + count, :belts] = taken[1:]
+        self.taken[:belts] = taken[-1]
 
     def closed(self, beside: Array) -> Record:
         """Record of all belts, with the initial tensions before and behind the driven pulleys."""
@@ -149,13 +162,14 @@ class MotionRecord:
         extremes, speeds, dt = self.extremes, self.speeds, self.dt
         if not (np.all(np.isfinite(extremes.high)) and np.all(np.isfinite(self.stored))):
             raise NoSolutionError("the belt's motion has no finite answer: look for extreme inputs")
-        slip = dt[:, None] * (self.drives["rim"] - self.drives["belt"])
+        drives = {name: self.drives[:, k] for k, name in enumerate(DRIVE_FIGURES[:_TOLD])}
+        slip = dt[:, None] * (drives["rim"] - drives["belt"])
         sampled = self.every * np.arange(len(self.samples))[:, None]
         return Record(
             dt, extremes.high, extremes.low, self._time(extremes.high_at), self._time(extremes.low_at), speeds.high,
             speeds.low, self._time(speeds.high_at), self._time(speeds.low_at),
-            np.where(sampled < self.lasts, sampled * dt, 0.0), self.tensions, self.samples, self.drives, self.take_up,
-            np.abs(slip).sum(axis=0), (slip * self.drives["force"]).sum(axis=0), self.fastest, self.slowest,
+            np.where(sampled < self.lasts, sampled * dt, 0.0), self.tensions, self.samples, drives, self.take_up,
+            np.abs(slip).sum(axis=0), (slip * drives["force"]).sum(axis=0), self.fastest, self.slowest,
             self._work(),
         )  # fmt: skip
 
@@ -165,19 +179,20 @@ class MotionRecord:
 
     def _at_pulleys(self, begin: Array) -> None:
         """Extremes of cells that end on driven pulleys, where sudden forces act first."""
-        at = self.chain.nodes
-        for side, name in enumerate(("arriving", "leaving")):
-            values = np.concatenate([begin[side][None], self.drives[name]])
+        at, beside = self.chain.nodes, np.concatenate([begin[None], self.drives[:, BESIDE]])
+        for side in range(2):
+            values = beside[:, side]
             for row, d in np.argwhere(at != (self.chain.end[:, None] if side else 0)).tolist():
                 series = values[: self.lasts[row] + 1, row, d]
                 self.extremes.include_series(row, int(at[row, d]) - 1 + side, values=series)
 
     def _work(self) -> dict[str, Array]:
         """Energy balance, at the mean of old and new speeds; that in the relaxing branch is elastic, not damped."""
-        chain, drives, start, dt = self.chain, self.drives, self.start, self.dt
-        kinetic, elastic, held = self.stored - self.first
+        chain, start, dt = self.chain, self.start, self.dt
+        drives = {name: self.drives[:, k] for k, name in enumerate(DRIVE_FIGURES)}
+        kinetic, elastic, held = self.stored - self.initial
         rim = 0.5 * (drives["rim"] + np.concatenate([start.rims[None], drives["rim"][:-1]]))
-        belt = 0.5 * (drives["belt"] + self.going)
+        belt = 0.5 * (drives["belt"] + drives["before"])
         begins = start.speed[np.arange(chain.end.size), chain.end] - start.speed[:, 0]
         apart = np.diff(self.take_up["belt"], axis=0, prepend=0.0) / dt
         mean = 0.5 * (apart + np.concatenate([begins[None], apart[:-1]]))
@@ -186,7 +201,7 @@ class MotionRecord:
         made = {
             "motors": dt * (drives["motor"] * rim).sum(axis=(0, 2)),
             "lift": 0.5 * dt * (chain.weight * self.way).sum(axis=1),
-            "friction": dt * ((self.frictions * belt).sum(axis=(0, 2)) + 0.5 * self.rubbed.sum(axis=1)),
+            "friction": dt * ((drives["friction"] * belt).sum(axis=(0, 2)) + 0.5 * self.rubbed.sum(axis=1)),
             "damping": 0.5 * dt * self.damped.sum(axis=1) - held,
             "brakes": dt * (drives["holding"] * rim).sum(axis=(0, 2)),
             "slip": dt * (drives["force"] * (rim - belt)).sum(axis=(0, 2)),
