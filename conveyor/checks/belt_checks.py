@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks.check import Check, Relation, check_against_limit
 from conveyor.laws.belt_strength import RATED_START
+from conveyor.laws.turnover import least_turnover_length
 from conveyor.units.sentences import message
 
 
@@ -69,6 +70,27 @@ def splice_strength(result: CalculatedConveyor) -> Iterator[Check]:
             why=f"the splice requires a belt of {{required}} ({what}; DIN 22101:2002, factors general knowledge), "
             "given: {calculated}",
         )  # fmt: skip
+
+
+def belt_turnover(result: CalculatedConveyor) -> Iterator[Check]:
+    """Turnovers of a textile belt are as long as the rule of thumb asks; for steel cord none is known."""
+    if not result.conveyor.route.turned_over:
+        return
+    key, subject, belt = "belt_turnover", message("length of the turnovers"), result.line.belt
+    least = None if belt.steel_cord else least_turnover_length(belt.width)
+    length = result.conveyor.turnover_length
+    if length is None:
+        shown, asked = message("turnover_length not given"), message("that of the belt's maker")
+        if least is not None:
+            asked = message("at least {} (rule of thumb)", (least, "length"))
+        yield Check(key, subject, None, least, "length", shown, asked, "not checked")
+        return
+    yield check_against_limit(
+        key, subject, length, "at least", least, "length", source="rule of thumb",
+        missing="no rule for steel cord, ask the belt's maker",
+        why="turnovers of {calculated} leave the middle of the belt too slack, {required} are usual (12 belt widths, "
+        "rule of thumb): longer ones, or ask the belt's maker",
+    )  # fmt: skip
 
 
 def cover_thickness(result: CalculatedConveyor) -> Iterator[Check]:

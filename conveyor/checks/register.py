@@ -14,6 +14,7 @@ from conveyor.checks.belt_checks import (
     belt_rating,
     belt_safety,
     belt_temperature,
+    belt_turnover,
     cover_thickness,
     splice_strength,
 )
@@ -77,7 +78,7 @@ _SECTION_CRITERIA: Final = frozenset({"curve_radius", "pipe_radius", "belt_drift
 CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     belt_filling, motor_power, take_up_tension, take_up_travel, drive_grip, belt_sag, slack_belt, belt_safety,
     belt_rating,
-    splice_strength, cover_thickness, belt_temperature, pulley_diameter, curve_radius,
+    splice_strength, cover_thickness, belt_turnover, belt_temperature, pulley_diameter, curve_radius,
     wind_lift, horizontal_edges, belt_drift, pipe_curves, belt_transitions, pipe_lumps, impact_load, skirtboards,
     belt_cleaning, belt_scales, belt_feeder, pulley_shaft,
     pulley_bearings, lagging_pressure, starting_force, comes_to_rest, holding_brake, drive_parts, coasting_time,

@@ -186,6 +186,12 @@ class ConveyorParts(Model):
         return self.route.turned_over or self.idlers.return_.shape.closed
 
     @property
+    def turnover_length(self) -> float | None:
+        """Length of each turnover of the return strand [m]; None if not given."""
+        given = self.route.turnover_length
+        return None if given is None else si(given)
+
+    @property
     def return_compound(self) -> RubberCompound:
         """Compound under the return rolls: the top cover's, unless turned over or not stated."""
         top = self.belt.top_cover.compound

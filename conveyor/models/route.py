@@ -329,6 +329,8 @@ class Route(Model):
     """From the tail pulley to the first full trough."""
     turned_over: Switch = False
     """Whether the return strand is turned over, so that its rolls run on the bottom cover too."""
+    turnover_length: Annotated[Length, Bounds(gt="0 m", le="1 km")] | None = None
+    """Of each of its two turnovers, from pulley to pulley."""
 
     @model_validator(mode="after")
     def _names_once(self) -> Self:
@@ -342,6 +344,8 @@ class Route(Model):
                 )
                 problems.append(Problem(("sections", i, "name"), message))
             first.setdefault(section.name, i)
+        if self.turnover_length is not None and not self.turned_over:
+            problems.append(Problem(("turnover_length",), "goes with turned_over: true; give both or neither"))
         raise_problems("Route", [*problems, *self._place_problems(), *self._feeding_problems()])
         return self
 
