@@ -13,7 +13,7 @@ from conveyor.fitting.amplitude import WORKING_STRAIN, strain_text
 from conveyor.fitting.fit_verdict import GLOSSARY, Criterion, compound_law
 from conveyor.fitting.fitted_compound import FittedCompound
 from conveyor.fitting.shift_choice import law_constants
-from conveyor.models.given_names import given_names
+from conveyor.models.given_names import given_names, given_notes
 from conveyor.models.report import Paper
 from conveyor.report.table_model import Column, Contents, ReportHead, Table
 from conveyor.rubber import AmplitudeFactors, StrainSweep
@@ -56,7 +56,10 @@ def fit_contents(
     def given() -> frozenset[str]:
         return given_names(fitted.compound) | {*about.values(), *fitted.metadata.values(), *fitted.files}
 
-    head = ReportHead(fitted.compound.name, "Master curve of a rubber", about, "", paper, names=given)
+    def notes() -> frozenset[str]:
+        return given_notes(fitted.compound)
+
+    head = ReportHead(fitted.compound.name, "Master curve of a rubber", about, "", paper, names=given, notes=notes)
     return Contents.of(head, parts, "SI")
 
 

@@ -57,6 +57,8 @@ class Translator:
         Texts of the language.
     names : collection of str
         Names that the user gave; they stay as they are where they stand alone, between marks or before "pulley".
+    notes : collection of str
+        Notes of compounds; they stay as they are where the catalogue has them not whole.
 
     Examples
     --------
@@ -69,6 +71,7 @@ class Translator:
 
     catalogue: Catalogue
     names: Collection[str] = frozenset()
+    notes: Collection[str] = frozenset()
     missing: dict[str, None] = field(default_factory=dict)
     """Texts, or parts of them, that have no translation."""
 
@@ -141,6 +144,8 @@ class Translator:
             return self.catalogue.numbers.localise(words)
         if words in self.catalogue.texts:
             return self.catalogue.texts[words]
+        if words in self.notes:
+            return words
         if (other := words[0].swapcase() + words[1:]) in self.catalogue.texts:
             return _with_first_letter_as(words, self.catalogue.texts[other])
         return words if _SAME.fullmatch(words) else None
@@ -220,6 +225,8 @@ def _last_bracket(words: str) -> int:
     return 0
 
 
-def report_translator(language: str, names: Collection[str] = frozenset()) -> Translator:
-    """Return the translator of a language with a catalogue, with the names that stay as they are."""
-    return Translator(load_catalogue(language), names)
+def report_translator(
+    language: str, names: Collection[str] = frozenset(), notes: Collection[str] = frozenset()
+) -> Translator:
+    """Return the translator of a language with a catalogue, with the names that stay as they are and with notes."""
+    return Translator(load_catalogue(language), names, notes)

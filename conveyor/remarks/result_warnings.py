@@ -92,11 +92,12 @@ def _strain_warnings(result: CalculatedConveyor) -> Iterator[Message]:
         worked = result.contacts.covers[strand].strain
         factors = compound.amplitude_factors()
         if worked is not None and factors is not None:
-            note = f" ({escape_braces(known.reference_note)})" if known.reference_note else ""
+            note = f" ({known.reference_note})" if known.reference_note else ""
+            reference = escape_braces(f"{text(known.reference_strain)}{note}")
             yield message(
                 f'compound "{name}": working strain under the {strand} rolls {percent(worked.strain, 1)} at '
                 f"{worked.frequency:.3g} Hz: E' x {worked.storage_factor:.3g}, E'' x {worked.loss_factor:.3g} of "
-                f"the master curve at {text(known.reference_strain)}{note}"
+                f"the master curve at {reference}"
             )
             largest = factors.largest_strain(result.temperature)
             if worked.strain > largest:

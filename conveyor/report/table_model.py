@@ -363,6 +363,8 @@ class ReportHead:
         Language of the texts of page and workbook.
     names : callable
         Returns the names and texts that the user gave, the same in every language.
+    notes : callable
+        Returns the notes of its compounds.
     """
 
     title: str
@@ -373,6 +375,7 @@ class ReportHead:
     facts: tuple[tuple[str, str], ...] = ()
     language: str = "en"
     names: Callable[[], frozenset[str]] = frozenset
+    notes: Callable[[], frozenset[str]] = frozenset
 
     @property
     def document_line(self) -> str:
@@ -428,7 +431,7 @@ class Contents:
     def translator(self) -> Translator | None:
         """Translator of its texts; None in English."""
         about = self.document
-        return None if about.language == "en" else report_translator(about.language, about.names())
+        return None if about.language == "en" else report_translator(about.language, about.names(), about.notes())
 
     def in_language(self, language: str) -> Contents:
         """The same contents for a report in a language."""

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import re
+from itertools import count, pairwise
 
 import pytest
 
+from conveyor import shelf
 from conveyor.languages import LANGUAGES, TRANSLATED
 from conveyor.languages.catalogue import NUMBER_FORMATS, Catalogue, load_catalogue
 from conveyor.languages.gapped_sentence import GAP
 from conveyor.languages.number_format import NumberFormat
 from conveyor.languages.translator import Translator, report_translator
+from conveyor.models.given_names import given_notes
 from conveyor.models.report import Report
 from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, SUMMARY_SHEET, VERIFICATION_SHEETS
+from conveyor.shelf import built_in
+from conveyor.units.sentences import degree_signs
 
 WORDS = re.compile(r"[A-Za-z]{4,}")
 SAME = {"de": 0.05, "es": 0.08, "pt": 0.08, "zh": 0.04}
@@ -30,6 +35,40 @@ def test_every_text_is_translated_with_its_gaps(language):
         assert numbers == list(range(len(gaps))), (english, translation)
         assert not any(gaps), english
         translation.format(*range(len(gaps)))
+
+
+@pytest.mark.parametrize("language", TRANSLATED)
+def test_gaps_side_by_side_stay_so(language):
+    """All that is behind a sentence fills the last one of them."""
+    for english, translation in load_catalogue(language).texts.items():
+        order = [int(number) if number else i for i, number in enumerate(GAP.findall(translation))]
+        beside = {pair for pair in pairwise(order) if f"\0{pair[0]}\0\0{pair[1]}\0" in _numbered(translation)}
+        pairs = pairwise(range(len(GAP.findall(english))))
+        assert {pair for pair in pairs if f"\0{pair[0]}\0\0{pair[1]}\0" in _numbered(english)} <= beside, english
+
+
+def _numbered(sentence):
+    """A sentence with the numbers of its gaps between marks."""
+    numbers = count()
+    return GAP.sub(lambda gap: f"\0{gap[1] or next(numbers)}\0", sentence)
+
+
+@pytest.mark.parametrize("language", TRANSLATED)
+def test_notes_of_the_compounds_of_the_shelf_are_translated(language):
+    texts = load_catalogue(language).texts
+    for compound in map(shelf.compound, map(str, built_in().glob("*.yaml"))):
+        written = set() if compound.kind == "illustrative" else {compound.fit.method}  # by conveyor fit
+        notes = {degree_signs(note) for note in given_notes(compound) - written}
+        assert {degree_signs(compound.description), degree_signs(compound.strain_dependence.reference_note)} <= notes
+        assert notes <= texts.keys(), compound.name
+
+
+def test_notes_that_no_catalogue_has_stay_whole():
+    """Names stay even where a catalogue has them."""
+    catalogue = Catalogue("de", {"belt": "Gurt", "as new": "wie neu"})
+    translator = Translator(catalogue, {"belt"}, {"as new", "as new; belt", "worn; as new"})
+    assert translator.text("as new (worn; as new)") == "wie neu (worn; as new)"
+    assert (translator.text("belt"), translator.text("as new; belt")) == ("belt", "as new; belt")
 
 
 @pytest.mark.parametrize("language", TRANSLATED)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import functools
 import re
+from itertools import count
 from pathlib import Path
 
 import openpyxl
@@ -51,6 +52,22 @@ def test_tables_of_every_example_are_translated(name):
         for remark in report["remarks"].rows:
             words.text(remark.text)
         assert words.missing == {}, language
+
+
+@pytest.mark.parametrize(
+    ("language", "at"),
+    [
+        ("de", "Masterkurve bei 0,1 % (angenommen, das Spektrum ist konstruiert)"),
+        ("es", "curva maestra a 0,1 % (supuesta, el espectro es construido)"),
+        ("pt", "curva mestra a 0,1 % (adotada, o espectro é construído)"),
+        ("zh", "以主曲线为准，其应变 0.1 % (取定值，谱为构造)"),
+    ],
+)
+def test_a_note_of_a_compound_stands_behind_its_figure(language, at):
+    report = contents("overland").in_language(language)
+    said = [report.translator.text(row.text) for row in report["remarks"].rows]
+    assert sum(at in one for one in said) == 2
+    assert report.translator.missing == {}
 
 
 def test_page_and_workbook_are_translated_whole(tmp_path):
@@ -132,15 +149,18 @@ def _sentence(node):
     return ""
 
 
+@pytest.mark.parametrize("language", TRANSLATED)
 @pytest.mark.parametrize("folder", ["checks", "remarks", "dynamics"])
-def test_every_sentence_of_checks_and_remarks_is_translated(folder):
-    """Whatever fills its gaps; also those that no example says."""
-    words, found = report_translator("de"), 0
+def test_every_sentence_of_checks_and_remarks_is_translated(folder, language):
+    """Whatever fills its gaps, and with all of it; also those that no example says."""
+    words, found = report_translator(language), 0
     for name, sentence in _messages(folder):
         if not re.search(r"[a-z]{3}", GAP.sub("", sentence)) or name in {"scenario_sizing.py", "machines.py"}:
             continue
         found += 1
-        words.text(GAP.sub("7", sentence.replace("{{", "{").replace("}}", "}")))
+        numbers = count(11)
+        filled = GAP.sub(lambda _, numbers=numbers: f"{next(numbers)}", sentence.replace("{{", "{").replace("}}", "}"))
+        assert sorted(re.findall(r"\d", words.text(filled))) == sorted(re.findall(r"\d", filled)), filled
     assert found > {"checks": 100, "remarks": 40, "dynamics": 10}[folder]
     assert words.missing == {}
 

@@ -12,7 +12,7 @@ from conveyor.files.output_marks import package_version
 from conveyor.line.set_loads import FormedPipe
 from conveyor.models import Conveyor
 from conveyor.models.calculation_methods import FACTOR_METHODS, METHOD_NAMES
-from conveyor.models.given_names import given_names
+from conveyor.models.given_names import given_names, given_notes
 from conveyor.report.table_model import Column, Figure, PagePlacement, ReportHead, Table, figure_table
 from conveyor.report.tables.inputs import InputRow, group_inputs
 from conveyor.spec import fingerprint
@@ -34,9 +34,9 @@ def report_head(
     report = conveyor.report
     names = ("project", "client", "number", "revision", "engineer", "reviewer", "approval")
     said = {name: value for name in names if (value := getattr(report, name)) is not None}
-    given = partial(given_names, (conveyor, *named))
+    given, notes = (partial(texts, (conveyor, *named)) for texts in (given_names, given_notes))
     paper = report.sheet(system)
-    return ReportHead(conveyor.name, kind, said, fingerprint(conveyor), paper, facts, report.language, given)
+    return ReportHead(conveyor.name, kind, said, fingerprint(conveyor), paper, facts, report.language, given, notes)
 
 
 def identity_table(conveyor: Conveyor, system: System) -> Table:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 from conveyor.files.output_marks import package_version
 from conveyor.measured.rolling_test_table import FORM_SHEET
 from conveyor.models import Report
-from conveyor.models.given_names import given_names
+from conveyor.models.given_names import given_names, given_notes
 from conveyor.report.table_model import Column, Contents, PagePlacement, ReportHead, Table, remark_table
 from conveyor.units import System
 from conveyor.units.presentation import display_unit
@@ -42,8 +42,9 @@ def verification_contents(sheet: CalculatedVerification, system: System) -> Cont
     )
     title = f"Rolling resistance of {names}"
     report = Report() if sheet.conveyor is None else sheet.conveyor.report
-    given = partial(given_names, (*sheet.compounds, sheet.conveyor))
-    about = ReportHead(title, "Verification sheet", {}, "", report.sheet(system), facts, report.language, given)
+    given, notes = (partial(texts, (*sheet.compounds, sheet.conveyor)) for texts in (given_names, given_notes))
+    paper = report.sheet(system)
+    about = ReportHead(title, "Verification sheet", {}, "", paper, facts, report.language, given, notes)
     what = remark_table({"assumption": basis_lines(sheet)}, ABOUT, "What these figures are")
     parts = (what, fill_in_table(), resistance_per_width(sheet, system), resistance_per_set(sheet))
     return Contents.of(about, parts, system, page=PARTS, layout="verification")
