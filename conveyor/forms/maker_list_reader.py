@@ -80,11 +80,11 @@ LIST_FORMS: Final[Mapping[MakerKind, ListForm]] = {
     "belts": ListForm(
         Belt,
         {
-            "carcass.kind": "", "carcass.strength": "N/mm", "carcass.rating": "PIW", "carcass.thickness": "mm",
-            "carcass.mass": "kg/m^2", "carcass.stiffness": "N/mm", "carcass.permanent_stretch": "%",
-            "carcass.splice_strength": "%", "top_cover.thickness": "mm", "bottom_cover.thickness": "mm",
-            "thickness": "mm", "mass": "kg/m^2", "transverse_stiffness": "N*m", "lowest_temperature": "degC",
-            "highest_temperature": "degC",
+            "carcass.kind": "", "carcass.plies": "", "carcass.strength": "N/mm", "carcass.rating": "PIW",
+            "carcass.thickness": "mm", "carcass.mass": "kg/m^2", "carcass.stiffness": "N/mm",
+            "carcass.permanent_stretch": "%", "carcass.splice_strength": "%", "top_cover.thickness": "mm",
+            "bottom_cover.thickness": "mm", "thickness": "mm", "mass": "kg/m^2", "transverse_stiffness": "N*m",
+            "lowest_temperature": "degC", "highest_temperature": "degC",
         },
         ("carcass.kind", "carcass.thickness"),
         {

@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 from pydantic import Field, model_validator
 
 from conveyor.laws.preliminary_sizing import Severity
-from conveyor.models.base import Model, Number, Problem, raise_problems, value_digest
+from conveyor.models.base import AnyInteger, Model, Number, Problem, raise_problems, value_digest
 from conveyor.models.compound import CompoundReference, RubberCompound
 from conveyor.models.library_items import LibraryItem
 from conveyor.models.maker_lists import Listed
@@ -87,8 +87,13 @@ class BulkWear(Model):
 class Carcass(Model):
     """The tension member between the covers."""
 
-    kind: Literal["steel cord", "EP", "polyamide", "aramid", "cotton", "solid woven"]
-    """Material: decides pulley diameters and the resistance of wrapping a pulley."""
+    kind: Literal[
+        "steel cord", "EP", "polyamide", "aramid", "cotton", "solid woven", "PVC solid woven", "PVG solid woven"
+    ]
+    """Material: decides pulley diameters and the resistance of wrapping a pulley; solid woven are all calculated alike,
+    as textile."""
+    plies: Annotated[int, Field(ge=1, le=20, strict=True), AnyInteger] | None = None
+    """Of fabric; said in reports, no figure uses it."""
     thickness: Annotated[Thickness, Bounds(gt="0 mm", le="50 mm")]
     """Of plies or cords between the covers."""
     mass: Annotated[AreaMass, Bounds(gt="0 kg/m^2", le="200 kg/m^2")] | None = None
@@ -131,6 +136,8 @@ class Carcass(Model):
         elif strength is not None and rating is not None and si(rating) >= si(strength):
             message = f"got {text(rating)}, but the belt breaks at {text(strength)} (strength); correct one of the two"
             problems.append(Problem(("rating",), message))
+        if self.kind == "steel cord" and self.plies is not None:
+            problems.append(Problem(("plies",), f"got {self.plies}, but cords of steel (kind) are no plies; remove it"))
         if strength is None and self.splice_strength is not None:
             message = "given without the strength it is a share of; give strength, or remove it"
             problems.append(Problem(("splice_strength",), message))

@@ -37,7 +37,7 @@ _EXPECTED_TYPES = {
 
 _OTHER_NAMES = {
     "st": "steel cord", "steel": "steel cord", "polyester": "EP", "ep/pn": "EP", "nylon": "polyamide",
-    "pa": "polyamide", "nn": "polyamide", "kevlar": "aramid", "pvg": "solid woven", "pvc": "solid woven",
+    "pa": "polyamide", "nn": "polyamide", "kevlar": "aramid", "pvg": "PVG solid woven", "pvc": "PVC solid woven",
 }  # fmt: skip
 """What makers call things that a field names otherwise."""
 

@@ -27,7 +27,7 @@ _ROWS: Final = 20  # of inputs drawn
 _TEXTS: Final = {
     "name": "Name that a spec lists the item by; the package's own and other lists have none like it.",
     "source": "Maker, list, edition and page.",
-    "note": "What else is to be said, such as plies, part number, article; no figure uses it.",
+    "note": "What else is to be said, such as part number, article; no figure uses it.",
 }
 
 

@@ -7,6 +7,7 @@ import functools
 import re
 from itertools import count
 from pathlib import Path
+from typing import get_args
 
 import openpyxl
 import pytest
@@ -19,6 +20,7 @@ from conveyor.laboratory import read_dma
 from conveyor.languages import TRANSLATED
 from conveyor.languages.gapped_sentence import GAP
 from conveyor.languages.translator import report_translator
+from conveyor.models.belt import Carcass
 from conveyor.report import excel, html, pdf
 from conveyor.report.tables.analysis_contents import analysis_contents
 from conveyor.report.translated_page import translate_page
@@ -297,6 +299,15 @@ def test_fonts_of_pdf_come_with_matplotlib(tmp_path):
     typst = pytest.importorskip("typst")
     pdf.copy_fonts(tmp_path)
     assert "DejaVu Sans" in typst.Fonts(include_system_fonts=False, font_paths=[tmp_path]).families()
+
+
+@pytest.mark.parametrize("language", TRANSLATED)
+def test_every_kind_of_carcass_is_translated(language):
+    words = report_translator(language)
+    for kind in get_args(Carcass.model_fields["kind"].annotation):
+        words.text(f"{kind}, 1 ply, breaking 400 N/mm")
+        words.text(f"{kind}, 4 plies, rated 330 PIW")
+    assert words.missing == {}
 
 
 @pytest.mark.parametrize("language", TRANSLATED)

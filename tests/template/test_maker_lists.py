@@ -15,6 +15,7 @@ from conveyor.files.libraries import flatten_fields
 from conveyor.forms.maker_list_reader import LIST_FORMS, add_maker_list, read_maker_list
 from conveyor.models.maker_lists import MAKER_KINDS
 from conveyor.pipeline import calculate
+from conveyor.report.tables.document_tables import identity_table
 from conveyor.spec import dump
 from conveyor.starter.maker_list_form import write_maker_list_form
 from conveyor.units import si
@@ -25,8 +26,8 @@ ITEMS: list[tuple[str, dict[str, Any]]] = [
     ("Rolls", {"name": "R-159-465", "source": "list of X, p. 12", "diameter": 159, "length": 465, "rotating_mass": 8.4,
                "drag": 1.9, "bearing.dynamic_rating": 22.5, "bearing.distance": 525}),
     ("Belts", {"name": "EP630/4 5+2", "source": "list of Y, p. 3", "carcass.kind": "EP", "carcass.strength": 630,
-               "carcass.thickness": 4.8, "carcass.mass": 6.1, "top_cover.thickness": 5, "bottom_cover.thickness": 2,
-               "note": "4 plies"}),
+               "carcass.plies": 4, "carcass.thickness": 4.8, "carcass.mass": 6.1,
+               "top_cover.thickness": 5, "bottom_cover.thickness": 2, "note": "from stock"}),
     ("Pulleys", {"name": "P800", "source": "list of P", "diameter": 800, "shaft_diameter": 160, "mass": 1400}),
     ("Motors", {"name": "M315", "source": "list of Z, p. 9", "installed_power": 315, "motor_speed": 1488,
                 "inertia": 5.2, "efficiency": 96}),
@@ -88,6 +89,22 @@ def test_a_list_is_read_kept_and_found_by_specs(tmp_path):
     assert '"R-159-465" of the library where the spec gives nothing (list of X, p. 12)' in said
 
 
+@pytest.mark.parametrize("kind", ["EP", "solid woven", "PVC solid woven", "PVG solid woven"])
+def test_a_belt_is_said_with_its_plies_and_solid_woven_ones_are_calculated_alike(tmp_path, kind):
+    belt = ITEMS[1][1] | {"carcass.kind": kind}
+    add_maker_list(filled(tmp_path, [("Belts", belt)]), tmp_path / "conveyor-library")
+    spec = (SPECS / "slider.yaml").read_text(encoding="utf-8")
+    carcass = spec[spec.index("  carcass:") :].split("\n")[0]
+    path = tmp_path / "spec.yaml"
+    path.write_text(spec.replace(carcass, "  listed: EP630/4 5+2"), encoding="utf-8")
+    line = conveyor.load(path)
+    said = identity_table(line, "SI")
+    assert {row.label: row.value for row in said.rows}["belt"] == f"{kind}, 4 plies, breaking 630 N/mm"
+    plain = "solid woven" if "woven" in kind else kind
+    same = line.replace(belt=line.belt.replace(listed=None, carcass=line.belt.carcass.replace(kind=plain, plies=None)))
+    assert calculate(line).balance.power == calculate(same).balance.power
+
+
 def test_a_spec_that_was_read_needs_no_list(tmp_path):
     add_maker_list(filled(tmp_path, ITEMS), tmp_path / "conveyor-library")
     line = conveyor.load(spec_of(tmp_path))
@@ -126,6 +143,10 @@ def test_added_again_it_replaces_its_items(tmp_path):
         ("Rolls", {"name": "159x465"}, 'Rolls!A2 name: got "159x465", which the package\'s own library has'),
         ("Rolls", {"bearing.distance": None}, "bearing.distance: missing"),
         ("Belts", {"carcass.kind": "wool"}, "Belts!C2 carcass.kind: got"),
+        ("Belts", {"carcass.plies": 0}, "Belts!D2 carcass.plies: got 0, allowed: >= 1"),
+        ("Belts", {"carcass.plies": 3.5}, "Belts!D2 carcass.plies: expected a whole number, got 3.5"),
+        ("Belts", {"carcass.plies": "four"}, 'Belts!D2 carcass.plies: expected a whole number, got "four"'),
+        ("Belts", {"carcass.kind": "steel cord"}, "Belts!D2 carcass.plies: got 4, but cords of steel (kind) are no"),
         ("Motors", {"efficiency": 105}, "Motors!F2 efficiency: got 105 %"),
     ],
 )

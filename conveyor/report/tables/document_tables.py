@@ -57,6 +57,7 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
 
     known = ("breaking", carcass.strength, "belt strength"), ("rated", carcass.rating, "belt rating")
     strengths = "".join(f", {what} {format_figure(v, kind, system)}" for what, v, kind in known if v is not None)
+    plies = "" if carcass.plies is None else f", {carcass.plies} {'ply' if carcass.plies == 1 else 'plies'}"
     above = "rubber of the bottom cover" if top.compound is None else top.compound.name
     heavy = "" if material.weight_density is None else f" (at its heaviest {shown(material.weight_density, 'density')})"
     rows: tuple[Figure, ...] = (
@@ -66,7 +67,7 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
         Figure("belt speed", "speed", conveyor.belt_speed),
         Figure("mass flow", "mass flow", conveyor.mass_flow),
         Figure("temperature of the covers", "temperature", conveyor.temperature),
-        Figure("belt", "text", f"{carcass.kind}{strengths}"),
+        Figure("belt", "text", f"{carcass.kind}{plies}{strengths}"),
         Figure("top cover", "text", f"{shown(top.thickness, 'thickness')}, {above}"),
         Figure("bottom cover", "text", f"{shown(bottom.thickness, 'thickness')}, {bottom.compound.name}"),
         Figure("carry idlers", "text", idlers(conveyor.idlers.carry)),
