@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from conveyor.line.optional_quantities import si_or_default, si_or_none
-from conveyor.models import Conveyor
+from conveyor.models import Calculation, Route
 from conveyor.units import si
 
 
@@ -35,9 +35,9 @@ class CemaFactors:
         return self.section_flexure.get(section, self.flexure)
 
 
-def cema_factors(conveyor: Conveyor) -> CemaFactors | None:
+def cema_factors(calculation: Calculation, route: Route) -> CemaFactors | None:
     """Factors of the CEMA estimate; None without them."""
-    factors = conveyor.calculation.cema
+    factors = calculation.cema
     if factors is None:
         return None
     return CemaFactors(
@@ -53,8 +53,6 @@ def cema_factors(conveyor: Conveyor) -> CemaFactors | None:
         drive_pulleys=si(factors.drive_pulley_friction),
         accessories=si(factors.accessories),
         section_flexure={
-            section.name: section.flexure_factor
-            for section in conveyor.route.sections
-            if section.flexure_factor is not None
+            section.name: section.flexure_factor for section in route.sections if section.flexure_factor is not None
         },
     )

@@ -11,17 +11,13 @@ from numpy.typing import NDArray
 
 from conveyor.indentation import Support
 from conveyor.laws.motion import START_FACTOR
-from conveyor.laws.resistance import (
-    LENGTH_COEFFICIENTS,
-    SHORTEST_FOR_FACTOR,
-    idler_rotation_resistance,
-)
+from conveyor.laws.resistance import idler_rotation_resistance
 from conveyor.laws.wind import AIR_DENSITY, WIND_LIFT, wind_force
 from conveyor.line.belt_body import BeltBody, belt_body
 from conveyor.line.bend_pulleys import BendPulley, TransitionZone, bend_pulleys, transition_zones
 from conveyor.line.cema_factors import CemaFactors, cema_factors
 from conveyor.line.drive_units import DriveUnit, drive_units, torque_curve
-from conveyor.line.friction_factors import friction_factors
+from conveyor.line.friction_factors import friction_factors, secondary_method
 from conveyor.line.loop_positions import LoopPositions
 from conveyor.line.optional_quantities import si_or_default, si_or_none
 from conveyor.line.roll_drags import RollDrags, roll_drags
@@ -42,7 +38,7 @@ from conveyor.line.transfer_parts import (
 )
 from conveyor.line.weigh_sections import WeighSection, weigh_sections
 from conveyor.models import Calculation, Conveyor
-from conveyor.models.calculation_methods import FACTOR_METHODS, Method
+from conveyor.models.calculation_methods import Method
 from conveyor.units import si
 from conveyor.units.unit_systems import trade_of
 
@@ -186,12 +182,12 @@ class Line:
             least_friction=si(drive.least_friction),
             design_friction=si_or_default(drive.design_friction, 1.0),
             method=calculation.method,
-            secondary=_secondary_resistances(conveyor),
+            secondary=secondary_method(conveyor.calculation, conveyor.route.length),
             friction_factors=friction_factors(conveyor, strands.stretches),
             flexure_share=si_or_none(calculation.flexure_share),
             flexes_by_sag=calculation.flexure is None and calculation.flexure_share is None,
             flexure_source=_flexure_source(calculation),
-            cema=cema_factors(conveyor),
+            cema=cema_factors(conveyor.calculation, conveyor.route),
             support=calculation.support,
             rtol=calculation.rtol,
             softened=calculation.strain != "off",
@@ -274,14 +270,6 @@ class Line:
     def loop(self) -> LoopShape:
         """The stretches as the belt meets them from the head."""
         return self.strands.loop
-
-
-def _secondary_resistances(conveyor: Conveyor) -> str:
-    """As given; by a friction factor C where it is tabled."""
-    calculation = conveyor.calculation
-    tabled = SHORTEST_FOR_FACTOR < conveyor.route.length <= LENGTH_COEFFICIENTS[-1][0]
-    usual = "C" if calculation.method in FACTOR_METHODS and tabled else "itemised"
-    return usual if calculation.secondary is None else calculation.secondary
 
 
 def _flexure_source(calculation: Calculation) -> str:

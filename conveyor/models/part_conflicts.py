@@ -20,7 +20,8 @@ from conveyor.models.drive import DrivePulley
 from conveyor.models.driven_pulleys import driven_pulleys
 from conveyor.models.feeder_conflicts import hopper_problems, located_feeding
 from conveyor.models.idlers import IdlerSet, overlap_problems
-from conveyor.models.parts import ConveyorParts
+from conveyor.models.parts import Calculation, ConveyorParts
+from conveyor.models.route import Route
 from conveyor.models.validation_messages import Location
 from conveyor.units import Quantity, from_si, si, text, unit_system
 from conveyor.units.presentation import format_figure
@@ -387,9 +388,13 @@ def _length_coefficient_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _flexure_factor_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    yield from flexure_factor_problems(conveyor.route, conveyor.calculation)
+
+
+def flexure_factor_problems(route: Route, calculation: Calculation) -> Iterator[Problem]:
     """Refuse Ky of a section without the other factors of CEMA."""
-    for i, section in enumerate(conveyor.route.sections):
-        if section.flexure_factor is not None and conveyor.calculation.cema is None:
+    for i, section in enumerate(route.sections):
+        if section.flexure_factor is not None and calculation.cema is None:
             message = (
                 f"got {section.flexure_factor:g}, Ky of CEMA, without its other factors; give calculation.cema, or "
                 "remove it"

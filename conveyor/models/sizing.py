@@ -15,10 +15,11 @@ from conveyor.laws.idler_sets import CemaClass
 from conveyor.laws.preliminary_sizing import Severity
 from conveyor.laws.resistance import Site
 from conveyor.models.base import AnyInteger, Model, Name, Number, Problem, raise_problems
-from conveyor.models.calculation_methods import Method
+from conveyor.models.calculation_methods import FACTOR_METHODS, Method
 from conveyor.models.compound import CompoundReference
 from conveyor.models.material import BulkMaterial
 from conveyor.models.operation import EarthTemperature, Operation
+from conveyor.models.part_conflicts import flexure_factor_problems
 from conveyor.models.parts import Ambient, Calculation
 from conveyor.models.prices import Prices
 from conveyor.models.report import Report
@@ -205,7 +206,7 @@ class SiteRules(Model):
     speed_tolerance: Annotated[Fraction, Bounds(gt="0 %", le="10 %")] = quantity("5 %")
     """How far listed gearboxes may take the belt from a speed to choose from; the design has the speed they give."""
     basis: Method = "viscoelastic"
-    """Method by which the motors have to suffice, beside the friction to design for of the rolling contact."""
+    """Method by which the motors have to suffice, beside the friction to design for of calculation.method."""
     motor_reserve: Annotated[Number, Field(ge=1, le=3)] = 1.1
     """Rated power of motors over the highest needed, with the friction to design for."""
 
@@ -310,12 +311,19 @@ class SizingDuty(Model):
                 yield Problem(("rules", rule, i), told)
 
     def _method_problems(self) -> Iterator[Problem]:
-        method = self.calculation.method
-        if method != "viscoelastic":
-            told = f'got "{method}": a duty is sized by the rolling contact; give the method to the sized spec'
-            yield Problem(("calculation", "method"), told)
-        if self.rules.basis == "cema classic" and self.calculation.cema is None:
+        method, basis = self.calculation.method, self.rules.basis
+        named = {method, *(FACTOR_METHODS if method in FACTOR_METHODS else ())}
+        if method != "viscoelastic" and "basis" in self.rules.model_fields_set:
+            if basis in named:
+                told = f'got "{basis}" beside calculation.method "{method}", by which everything is sized: remove it'
+                yield Problem(("rules", "basis"), told)
+            elif basis == "viscoelastic":
+                told = f'got "{basis}" beside calculation.method "{method}": designs follow that alone; remove one'
+                yield Problem(("rules", "basis"), told)
+        if basis == "cema classic" and self.calculation.cema is None:
             yield Problem(("rules", "basis"), "cema classic needs Ky and Ai from the book: give calculation.cema")
+        if self.route is not None:
+            yield from flexure_factor_problems(self.route, self.calculation)
 
     def _price_problems(self) -> Iterator[Problem]:
         price = self.operation.price

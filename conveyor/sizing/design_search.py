@@ -143,7 +143,7 @@ def size_conveyor(duty: SizingDuty, *, best: int = 3, progress: ProgressCallback
     choices = every.within_travel()
     if not len(choices):
         raise _stretch_refusal(task)
-    search = _Search(task, choices, first_calibration(len(duty.covers)))
+    search = _Search(task, choices, first_calibration(len(duty.covers), duty.calculation.method))
     search.begin()
     final: list[SizedDesign] = []
     count = max(best, _LEAST_DESIGNS)
@@ -352,14 +352,18 @@ def _calibrate_estimate(
     """Calibration at which the estimate agrees with the median of the calculations."""
     over: dict[object, list[float]] = {}
     for i, one in calculated.items():
-        main = {force.key: force for force in one.balance.along}
-        cover, forces = choices[i].cover, one.balance.forces
+        main = {force.key: force for force in one.balance.along if force.kind == "main"}
+        cover, forces, classical = choices[i].cover, one.balance.forces, choices.task.classical
+        levelled = main if classical else ("indentation",)
         for k, strand in enumerate(STRANDS):
-            exact = main["indentation"].by_strand()[strand]
-            over.setdefault((strand, cover), []).append(exact / estimate.indentation[i, k])
-        over.setdefault("drag", []).append(main["idler_rotation"].total / estimate.rolls[i])
+            exact = math.fsum(main[key].by_strand()[strand] for key in levelled)
+            over.setdefault((strand, cover), []).append(exact / estimate.levelled[i, k])
+        if classical is None:
+            over.setdefault("drag", []).append(main["idler_rotation"].total / estimate.rolls[i])
         over.setdefault("design", []).append(one.line.design_friction / levels.design)
-        over.setdefault("rest", []).append((forces.secondary + forces.special) / estimate.rest[i])
+        by_length = 0.0 if classical is None else (classical.coefficient - 1.0) * forces.main
+        if estimate.rest[i] > 0.0:
+            over.setdefault("rest", []).append((forces.secondary + forces.special - by_length) / estimate.rest[i])
 
     for i, used in uses.items():
         for limit, exact in used.items():

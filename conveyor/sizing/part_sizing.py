@@ -350,7 +350,7 @@ def foresee_parts(task: SizingTask, design: SizedDesign) -> SelectedParts:
     more = 0.0
     for of in one.stretches[: one.line.count]:
         bulk = of.stretch.bulk_mass / of.stretch.line_mass
-        more += max(0.0, -bulk * (of.total - of.forces["idler_rotation"]))
+        more += max(0.0, -bulk * (of.total - of.forces.get("idler_rotation", 0.0)))
     motor = task.motors(
         min(max(_drive_powers(one)) * (1.0 + more / steady), task.largest_drive / task.rules.motor_reserve)
     )

@@ -1,8 +1,8 @@
 """Candidates and their closed estimate: friction by scaling laws, tensions round the loop, yearly cost.
 
 Indentation scales with (W⁴ h/D²)^(1/3) as on Winkler's foundation (Jonkers 1980); factors on it, on roll drag and on
-the secondary resistances are calibrated by exact calculations of some candidates. The estimate only selects what to
-calculate: no figure of a design comes from here.
+the secondary resistances are calibrated by exact calculations of some candidates. By a classical method the main
+resistance is that of its factors. The estimate only selects what to calculate: no figure of a design comes from here.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from conveyor.laws.resistance.flexure import FLEXURE_COEFFICIENT
 from conveyor.laws.resistance.resistance_defaults import CLEANER_PRESSURE
 from conveyor.laws.roll_life import BALL_EXPONENT, RATED_REVOLUTIONS
 from conveyor.models.belt import RUBBER_DENSITY
+from conveyor.models.calculation_methods import Method
 from conveyor.models.sizing import DriveLayout
 from conveyor.sizing.design_choice import DesignChoice, RollSize, TroughSize
 from conveyor.sizing.sizing_task import SizingTask, drive_powers
@@ -52,7 +53,8 @@ class EstimateCalibration:
     Attributes
     ----------
     carry, back : tuple of float
-        Indentation under carry and return rolls, of each cover [Pa^(-1/3)].
+        Indentation under carry and return rolls, of each cover [Pa^(-1/3)]; by a classical method the calculated main
+        resistance of carry and return strand over the estimated one [-].
     drag : float
         Drag of a roll [N].
     rest : float
@@ -71,8 +73,11 @@ class EstimateCalibration:
     uses: Mapping[Limit, float] = field(default_factory=dict)
 
 
-def first_calibration(covers: int) -> EstimateCalibration:
-    """Initial calibration: Jonkers at E' 10 MPa and tan δ 0.12; it selects what is calculated first."""
+def first_calibration(covers: int, method: Method = "viscoelastic") -> EstimateCalibration:
+    """Initial calibration: Jonkers at E' 10 MPa and tan δ 0.12, or the method's factors; it selects the first ones."""
+    if method != "viscoelastic":
+        given = (1.0,) * covers
+        return EstimateCalibration(given, given, 0.0, 1.0, design=1.0)
     jonkers = 1.138 * 0.12 / 1e7 ** (1.0 / 3.0)
     return EstimateCalibration((jonkers,) * covers, (jonkers,) * covers, 2.5, 1.0)
 
@@ -113,8 +118,9 @@ class Candidates:
             if task.suits(roll, trough, speed)
         )
         carry, back = task.spacings
-        series = (running, carry, back, task.duty.covers, task.kinds, task.rules.drives)
+        series = (running, carry, back, task.bottom_covers, task.kinds, task.rules.drives)
         numbers = np.indices([len(one) for one in series]).reshape(len(series), -1).T
+        numbers[:, 3] = np.array(task.bottom_covers)[numbers[:, 3]]
         apart = np.array([np.array(carry)[numbers[:, 1]], np.array(back)[numbers[:, 2]]])
         widest = np.array([task.widest_spacings(on.trough) for on in running]).reshape(-1, 2)[numbers[:, 0]].T
         return cls(task, running, numbers[(apart[0] <= apart[1]) & np.all(apart <= widest + _ROUNDING, axis=0)])
@@ -165,8 +171,8 @@ class Estimates:
         Index of the belt class.
     force, design_force : ndarray
         Force of all drives, as expected and with the friction to design for [N].
-    indentation : ndarray, shape (n, 2)
-        Of carry and return strand [N].
+    levelled : ndarray, shape (n, 2)
+        What has a factor for carry and return strand: indentation, by a classical method the main resistance [N].
     rolls : ndarray
         Number of rolls in all sets.
     rest : ndarray
@@ -180,7 +186,7 @@ class Estimates:
     carcass: NDArray[np.int64]
     force: Array
     design_force: Array
-    indentation: Array
+    levelled: Array
     rolls: Array
     rest: Array
     uses: Mapping[Limit, Array]
@@ -233,15 +239,15 @@ class _BeltSeries(NamedTuple):
 class _LoopEstimate(NamedTuple):
     """Estimate of candidates with a belt class each.
 
-    Covers [m], load of the middle roll and of carry and return sets, indentation, force of all drives, as expected and
-    with the friction to design for, tension behind the head [N]; the class required by the tensions, and with the
-    strongest class the use of its strength and of the take-up's travel [-].
+    Covers [m], load of the middle roll and of carry and return sets, what has a factor of its strand, force of all
+    drives, as expected and with the friction to design for, tension behind the head [N]; the class required by the
+    tensions, and with the strongest class the use of its strength and of the take-up's travel [-].
     """
 
     covers: Array
     middle: Array
     sets: Array
-    indentation: Array
+    levelled: Array
     force: Array
     design_force: Array
     slack: Array
@@ -258,7 +264,7 @@ def screen_candidates(task: SizingTask, every: Candidates, levels: EstimateCalib
     carry, back = (np.array(apart)[numbers[:, 1 + k]] for k, apart in enumerate(task.spacings))
     bulk, wear = task.flow / speed, [task.wear(v) for _, v, _, _ in every.running]
     skirts = _SKIRTS * bulk**2 / (task.density * width**2) * speed
-    rest = levels.rest * (task.flow * speed + _CLEANERS * width + skirts)
+    rest = levels.rest * (_bulk_acceleration(task, speed) + _CLEANERS * width + skirts)
     per_metre = np.array([3.0 / carry, every.runs(lambda on: on.trough.width.return_rolls[0]) / back])
     steel = np.array([one == "steel cord" for one in task.kinds])[kind]
     series = _BeltSeries.of(task, wear)
@@ -292,7 +298,7 @@ def screen_candidates(task: SizingTask, every: Candidates, levels: EstimateCalib
     parts = Parts(
         width=width, length=length, strength=series.strengths[kind, carcass], steel_cord=steel.astype(float),
         cover=top + first * bottom, special_cover=(1.0 - first) * bottom, sets=length / carry + length / back,
-        rolls=length * per_metre.sum(axis=0), roll_mass=length * _rotating_mass(every, carry, back),
+        rolls=length * per_metre.sum(axis=0), roll_mass=length * _rotating_masses(every, carry, back).sum(axis=0),
         roll_life=life, drives=drives, power=power * task.rules.motor_reserve,
         pulley_mass=series.pulleys[kind, carcass] * width, take_up=around.slack,
     )  # fmt: skip
@@ -302,7 +308,7 @@ def screen_candidates(task: SizingTask, every: Candidates, levels: EstimateCalib
     yearly = np.asarray(cost.year)
     year = np.where(possible, yearly, np.inf)
     rolls = length * per_metre.sum(axis=0)
-    return Estimates(yearly, year, carcass, force, around.design_force, around.indentation, rolls, rest, uses)
+    return Estimates(yearly, year, carcass, force, around.design_force, around.levelled, rolls, rest, uses)
 
 
 def _estimate_loop(
@@ -333,7 +339,7 @@ def _estimate_loop(
         three * (middle / three) ** _LOAD_EXPONENT
         + 2.0 * _WING_LOAD_FACTOR * on_wing * (wing / on_wing) ** _LOAD_EXPONENT
     )
-    indentation = np.array([
+    levelled = np.array([
         np.array(levels.carry)[cover] * np.cbrt(bottom / diameter**2) * per_set * length / carry,
         np.array(levels.back)[cover] * np.cbrt(top / diameter**2) * wide * (belt * g * back / wide) ** _LOAD_EXPONENT
         * length / back,
@@ -343,10 +349,15 @@ def _estimate_loop(
     spans = hanging * np.array([carry, back])
     square = 1.0 - (1.0 - of_bulk) * np.sin(every.runs(lambda on: on.trough.angle)) ** 2  # wings turn by cos λ
     askew = task.misalignment_friction * g * np.array([(belt + bulk) * square, belt])
-    straight = indentation / length + levels.drag * np.array([3.0 / carry, count / back]) + askew
-    sag = sags
+    straight = levelled / length + levels.drag * np.array([3.0 / carry, count / back]) + askew
+    flexes, sag = FLEXURE_COEFFICIENT.value, sags
+    if task.classical is not None:
+        main = np.array([levels.carry, levels.back])[:, cover] * task.classical.main_friction(
+            _rotating_masses(every, carry, back), belt, bulk, spacing=carry, gravity=g
+        )
+        levelled, straight, flexes = main * length, task.classical.coefficient * main, 0.0
     for _ in range(_FLEXURE_PASSES):  # the sag follows the tension, which follows the flexure
-        friction = straight + FLEXURE_COEFFICIENT.value * sag * hanging
+        friction = straight + flexes * sag * hanging
         rubbing = levels.design * friction
         up = np.outer(bulk + belt, g * sections[:, 1]) + np.outer(rubbing[0], sections[:, 0])
         down = np.outer(-belt, g * sections[:, 1]) + np.outer(rubbing[1], sections[:, 0])
@@ -367,7 +378,7 @@ def _estimate_loop(
     travel = travel * (mean / width / series.stiffest[kind] + lasting)
     sets = np.array([task.lump_factor * (belt + bulk) * g * carry, spans[1]]).T
     chosen = np.minimum(asked, last)
-    return _LoopEstimate(covers, middle, sets, indentation.T, force, design_force, slack, chosen, strength, travel)
+    return _LoopEstimate(covers, middle, sets, levelled.T, force, design_force, slack, chosen, strength, travel)
 
 
 def _roll_life(every: Candidates, middle: Array) -> Array:
@@ -376,15 +387,21 @@ def _roll_life(every: Candidates, middle: Array) -> Array:
     return np.asarray(_SET_LIFE_SHARE * turns * math.pi * every.runs(lambda on: on.roll.diameter / on.speed))
 
 
-def _rotating_mass(every: Candidates, carry: Array, back: Array) -> Array:
-    """Rotating mass of the rolls of both strands per length of conveyor [kg/m]."""
+def _bulk_acceleration(task: SizingTask, speed: Array) -> Array:
+    """Force that accelerates the bulk [N]; none beside the coefficient C, which holds it."""
+    by_length = task.classical is not None and task.classical.coefficient > 1.0
+    return np.zeros_like(speed) if by_length else task.flow * speed
+
+
+def _rotating_masses(every: Candidates, carry: Array, back: Array) -> Array:
+    """Rotating mass of the rolls of carry and return strand per length of conveyor, shape (2, n) [kg/m]."""
 
     def return_set(on: TroughAtSpeed) -> float:
         count, length, _ = on.trough.width.return_rolls
         return count * on.roll.mass(length)
 
     carry_set = every.runs(lambda on: 3.0 * on.roll.mass(on.trough.width.three))
-    return np.asarray(carry_set / carry + every.runs(return_set) / back)
+    return np.array([carry_set / carry, every.runs(return_set) / back])
 
 
 def _loop_tensions(

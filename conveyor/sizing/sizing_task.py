@@ -40,6 +40,7 @@ from conveyor.models.sizing import (
     size_series,
     within_limit,
 )
+from conveyor.sizing.classical_friction import ClassicalFriction
 from conveyor.sizing.design_choice import CarcassClass, DesignChoice, RollSize, TroughSize, WidthSize
 from conveyor.sizing.listed_sizes import listed_carcasses, listed_rolls, motor_power
 from conveyor.sizing.pulley_sizes import PulleySizes
@@ -128,6 +129,19 @@ class SizingTask:
     def misalignment_friction(self) -> float:
         """Drag of misaligned sets over their load [-]."""
         return misalignment_friction(MISALIGNMENT[self.duty.site].value)
+
+    @cached_property
+    def classical(self) -> ClassicalFriction | None:
+        """Friction by the classical method that the duty is sized by; None by the rolling contact."""
+        return ClassicalFriction.of(self.duty, self.sections)
+
+    @property
+    def bottom_covers(self) -> tuple[int, ...]:
+        """Numbers of the bottom covers to choose from; by a method that knows no rubber the cheapest alone."""
+        count, prices = len(self.duty.covers), self.duty.prices.amounts
+        if self.classical is None:
+            return tuple(range(count))
+        return (int(count > 1 and prices["special_cover"] < prices["cover"]),)
 
     @property
     def sags(self) -> tuple[float, float]:

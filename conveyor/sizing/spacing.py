@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.laws.resistance import roll_line_mass
 from conveyor.laws.roll_life import BALL_EXPONENT
 from conveyor.line.roll_lives import idler_set_life
 from conveyor.sizing.sized_design import SizedDesign
@@ -31,7 +32,8 @@ class SectionSpacing:
     bearings : float
         Widest spacing by the required L10 of a set's bearings; infinite without load [m].
     grows, falls : float
-        Coefficients of the yearly cost of a metre at a spacing a, grows a^(1/3) + falls/a [currency/a].
+        Coefficients of the yearly cost of a metre at a spacing a, grows a^(1/3) + falls/a [currency/a]; grows is 0 by
+        a classical method.
     """
 
     section: str
@@ -46,7 +48,9 @@ class SectionSpacing:
 
     @property
     def cheapest(self) -> float:
-        """Spacing of minimum cost, (3 falls/grows)^(3/4) [m]."""
+        """Spacing of minimum cost, (3 falls/grows)^(3/4) [m]; infinite where no resistance grows with it."""
+        if self.grows == 0.0:
+            return math.inf
         return math.pow(3.0 * self.falls / self.grows, 0.75)
 
     def cost(self, spacing: float) -> float:
@@ -67,8 +71,8 @@ def section_spacings(task: SizingTask, design: SizedDesign) -> Iterator[SectionS
     Notes
     -----
     Per metre of section at a spacing a: indentation as a^(1/3), rotation and cost of the sets as 1/a (derived, by the
-    scaling of the estimate); sag a (m'_B + m'_G) g/(8 T) at the lowest steady tension. Bearing life falls with the
-    third power of the load.
+    scaling of the estimate); by a classical method the mass of the rolls or Ai alone, as 1/a. Sag a (m'_B + m'_G)
+    g/(8 T) at the lowest steady tension. Bearing life falls with the third power of the load.
     """
     line, prices = design.found.line, task.duty.prices.amounts
     width, roll, count = design.choice.trough.width, design.choice.roll, line.count
@@ -80,7 +84,8 @@ def section_spacings(task: SizingTask, design: SizedDesign) -> Iterator[SectionS
         one_set = number * (prices["roll"] + prices["roll_mass"] * roll.mass(long)) + prices["set"] * width.belt
         for i, (length, _) in enumerate(task.sections):
             at = i if strand == "carry" else 2 * count - 1 - i
-            stretch, forces = line.stretches[at], design.found.stretches[at].forces
+            stretch = line.stretches[at]
+            indentation, rotation = _spacing_forces(task, design.found, at)
             now, lowest = stretch.spacing, min(_lowest_tension(one, at) for one in design.pair)
             per_spacing = stretch.line_mass * line.gravity / (8.0 * task.sags[k])
             life = idler_set_life(stretch, line.speed)
@@ -94,9 +99,23 @@ def section_spacings(task: SizingTask, design: SizedDesign) -> Iterator[SectionS
                 bearings=math.inf
                 if life is None
                 else now * math.pow(3600.0 * life.hours / task.roll_life, 1.0 / BALL_EXPONENT),
-                grows=worth * forces["indentation"] / length / math.cbrt(now),
-                falls=worth * forces["idler_rotation"] / length * now + yearly * one_set,
+                grows=worth * indentation / length / math.cbrt(now),
+                falls=worth * rotation / length * now + yearly * one_set,
             )
+
+
+def _spacing_forces(task: SizingTask, found: CalculatedConveyor, at: int) -> tuple[float, float]:
+    """Resistances of a stretch that go as a^(1/3) and as 1/a with its spacing a [N]."""
+    line, stretch, classical = found.line, found.line.stretches[at], task.classical
+    if classical is None:
+        forces = found.stretches[at].forces
+        return forces["indentation"], forces["idler_rotation"]
+    if classical.cema is not None:
+        idlers = classical.cema.temperature * classical.cema.idler_friction if stretch.strand == "carry" else 0.0
+        return 0.0, stretch.length * idlers / stretch.spacing
+    rolls = roll_line_mass(stretch.set_mass, spacing=stretch.spacing)
+    factor = classical.coefficient * float(line.friction_factors[at])
+    return 0.0, factor * stretch.length * line.gravity * rolls
 
 
 def _lowest_tension(one: CalculatedConveyor, at: int) -> float:

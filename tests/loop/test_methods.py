@@ -21,7 +21,6 @@ from conveyor.models.variants import with_case
 from conveyor.pipeline import calculate, calculate_many
 from conveyor.results.analysis import studies
 from conveyor.studies.loads import every_load
-from conveyor.studies.study_file import read_duty
 
 SPECS = Path(__file__).parents[2] / "examples" / "specs"
 ROUNDING = 1e-12
@@ -293,9 +292,3 @@ def test_what_a_method_does_not_know_is_refused():
         by("overland", "din 22102")
     with pytest.raises(InputError, match=r'method: got "cema universal": .* take "cema classic" with Ky'):
         by("overland", "cema universal")
-
-
-def test_a_duty_is_sized_by_the_rolling_contact():
-    duty = read_duty(SPECS.parent / "duties" / "in_plant.yaml")
-    with pytest.raises(InputError, match="a duty is sized by the rolling contact"):
-        duty.replace(calculation={"method": "din 22101"})

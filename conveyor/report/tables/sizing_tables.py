@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
@@ -10,6 +11,7 @@ import numpy as np
 
 from conveyor.checks import run_checks
 from conveyor.line.covers import compounds_by_strand
+from conveyor.models.calculation_methods import FACTOR_METHODS, METHOD_NAMES
 from conveyor.remarks.assumptions import analysis_assumptions, failed_fits
 from conveyor.report.analysis_plots import cross_section, route_profile
 from conveyor.report.json_keys import SCHEMA_VERSION
@@ -33,7 +35,7 @@ from conveyor.sizing.design_search import CalculatedSizing
 from conveyor.sizing.part_sizing import BRAKE_RESERVE
 from conveyor.sizing.sensitivity import VariedChoice, vary_choices
 from conveyor.sizing.sized_design import SizedDesign
-from conveyor.sizing.spacing import section_spacings
+from conveyor.sizing.spacing import SectionSpacing, section_spacings
 from conveyor.spec import fingerprint
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, display_unit, format_figure
@@ -293,7 +295,7 @@ def spacing_table(sizing: CalculatedSizing) -> Table:
         Column("sets", "spacing", "1.built", json="spacing_m"),
         Column("widest by sag", "spacing", "1.sag", json="sag_m"),
         Column("widest by bearings", "spacing", "1.bearings", json="bearings_m"),
-        Column("cheapest", "spacing", "1.cheapest", json="cheapest_m"),
+        Column("cheapest", "spacing", _cheapest_spacing, json="cheapest_m", sparse=True),
     )
     caption = "Distances of the sets along the profile, and what ends them"
     note = (
@@ -302,6 +304,11 @@ def spacing_table(sizing: CalculatedSizing) -> Table:
         "(rules.carry_spacings, rules.return_spacings)"
     )
     return Table("spacing", "Spacing", caption, columns, rows, "spacing", note)
+
+
+def _cheapest_spacing(row: tuple[int, SectionSpacing]) -> float | None:
+    """Spacing of minimum cost [m]; None by a method none of whose resistances grows with it."""
+    return row[1].cheapest if math.isfinite(row[1].cheapest) else None
 
 
 def _sizing_remarks(sizing: CalculatedSizing) -> Table:
@@ -315,11 +322,31 @@ def _sizing_remarks(sizing: CalculatedSizing) -> Table:
         "prices, series and rules without a source are general knowledge, orders of magnitude: give your own in the "
         "duty (prices, rules)",
         "carry and return compounds are those of the duty; covers by DIN 22101's points for wear (general knowledge)",
+        *_method_remarks(sizing),
         *(f"{count} calculated candidates are no designs: {why}" for why, count in sizing.refused.items()),
         *dict.fromkeys(_unjudged_items(best)),
         *analysis_assumptions(best.conveyor),
     ]
     return remark_table({"assumption": lines}, page="remarks")
+
+
+def _method_remarks(sizing: CalculatedSizing) -> Iterator[str]:
+    """Remarks on the classical method that designs are sized by."""
+    method = sizing.duty.calculation.method
+    if method == "viscoelastic":
+        return
+    yield (
+        f"forces, tensions, parts and checks are by {METHOD_NAMES[method]}, which knows no rubber: the compounds of "
+        "the duty do not change the force, every design has the cheapest"
+    )
+    yield "no resistance grows with the distance of the sets: the widest that sag, bearings and rules allow costs least"
+    if method in FACTOR_METHODS:
+        yield "f is that of the duty at every roll, distance of sets and temperature"
+    else:
+        yield (
+            "Ky, Ai and Kt are those of the duty at every roll, distance of sets and temperature: keep to those that "
+            "the book's figures are of (rules.roll_diameters, rules.carry_spacings)"
+        )
 
 
 def sizing_json(contents: Contents, sizing: CalculatedSizing) -> dict[str, Any]:
