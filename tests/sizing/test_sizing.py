@@ -18,13 +18,15 @@ from conveyor import shelf
 from conveyor.checks import run_checks
 from conveyor.checks.pulley_checks import pulley_shaft
 from conveyor.errors import InputError, NoSolutionError
+from conveyor.languages import TRANSLATED
+from conveyor.languages.translator import report_translator
 from conveyor.laws.belt_strength import RATED_SAFETY
 from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS
 from conveyor.laws.pulley import CEMA_SHAFTS, next_shaft_diameter
 from conveyor.laws.roll_life import rating_life_hours
 from conveyor.models.prices import Prices
 from conveyor.models.sizing import SizingDuty
-from conveyor.report.tables.sizing_tables import design_table
+from conveyor.report.tables.sizing_tables import design_table, sizing_contents
 from conveyor.sizing import size_conveyor
 from conveyor.sizing.design_choice import SelectedParts
 from conveyor.sizing.design_spec import design_spec, drive_diameter
@@ -297,6 +299,21 @@ def test_sets_stand_closer_where_the_bulk_lands(small, rule, given, expected):
     spec = design_spec(task, choice, SelectedParts(carcass, 5e-3, 2e-3, (45e3,), 0.0), "fed")
     assert si(spec.route.feeding.idler_spacing) == pytest.approx(expected)
     assert si(spec.idlers.carry.spacing) == pytest.approx(1.2)
+
+
+def test_a_duty_without_a_loading_point_is_told_what_its_designs_have_not(small, sized):
+    feeding = {"skirt_length": "1 m", "skirt_width": "450 mm"}
+    fed = small.replace(route=small.route.as_data() | {"feeding": feeding})
+    plain = small.replace(route=None, length="180 m", lift="12 m")
+    unfed, told = "no loading point is given", []
+    for duty in (small, fed, plain):
+        contents = sizing_contents(replace(sized, duty=duty), "SI", vary=False)
+        told.append([line for line in contents.lines("assumption") if unfed in line or "needs a route" in line])
+    assert [len(said) for said in told] == [1, 0, 2]
+    for language in TRANSLATED:
+        words = report_translator(language)
+        assert not any(unfed in words.text(line) for line in told[-1])
+        assert words.missing == {}
 
 
 def test_motors_suffice_by_the_method_of_the_contract_too(small, sized):

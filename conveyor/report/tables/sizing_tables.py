@@ -324,6 +324,7 @@ def _sizing_remarks(sizing: CalculatedSizing) -> Table:
         "carry and return compounds are those of the duty; covers by DIN 22101's points for wear (general knowledge)",
         *_method_remarks(sizing),
         *(f"{count} calculated candidates are no designs: {why}" for why, count in sizing.refused.items()),
+        *_missing_feeding(sizing),
         *dict.fromkeys(_unjudged_items(best)),
         *analysis_assumptions(best.conveyor),
     ]
@@ -347,6 +348,18 @@ def _method_remarks(sizing: CalculatedSizing) -> Iterator[str]:
             "Ky, Ai and Kt are those of the duty at every roll, distance of sets and temperature: keep to those that "
             "the book's figures are of (rules.roll_diameters, rules.carry_spacings)"
         )
+
+
+def _missing_feeding(sizing: CalculatedSizing) -> Iterator[str]:
+    """Remark on a duty without a loading point: what its designs have not, and what to give."""
+    if sizing.duty.sized_route.feeding is None:
+        yield (
+            "no loading point is given: sets where the bulk lands are as far apart as elsewhere and not judged for "
+            "impact, skirts are assumed; give route.feeding with skirt_length, skirt_width and drop_height, and sets "
+            "there stand half as far apart (or by rules.loading_spacing)"
+        )
+        if sizing.duty.route is None:
+            yield "route.feeding needs a route: give route with one section of the length and lift instead of them"
 
 
 def sizing_json(contents: Contents, sizing: CalculatedSizing) -> dict[str, Any]:
