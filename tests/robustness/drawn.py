@@ -168,7 +168,7 @@ def outcome(data: Data, *, whole: bool) -> str:
         table.frame()
     assert not list(_not_finite(plain)), list(_not_finite(plain))
     _forces_add_up(result)
-    if whole:
+    if whole and line.calculation.method == "viscoelastic":  # factors know no roll's drag
         _power_grows_with_friction(line, result)
     _slack_belts_fail(result, {check.verdict.upper() for check in result.checks})
     _slack_belts_fail(shown, {check["verdict"].upper() for check in plain["checks"]})
