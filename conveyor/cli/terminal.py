@@ -200,7 +200,7 @@ def _force_table(contents: Contents) -> Grid:
     names = {"main": "main resistance", "total": whole}
     rows: list[tuple[str, float, float | None]] = [
         (row.label, row.value, None)
-        for row in (_result_figure(contents, f"{name}_force") for name in _main_parts(contents))
+        for row in (_result_figure(contents, f"{name.lower()}_force") for name in _main_parts(contents))
     ]
     rows += [(names.get(key, key), *sums[key][:2]) for key in _FORCE_SUMS]
     _, here, other_method, *_ = (column.label for column in contents["classical"].columns)

@@ -47,7 +47,7 @@ def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
         *(
             Figure(
                 force_label(name), "force", newtons, "notebook",
-                f"forces_N.{name}", key=f"{name}_force",
+                f"forces_N.{name}", key=f"{name.lower()}_force",
             )
             for name, newtons in forces.parts.items()
         ),
