@@ -17,6 +17,7 @@ from conveyor.arguments.limits import (
     require_slope,
 )
 from conveyor.laws.loading import NO_WING, Wing, wing_pieces
+from conveyor.laws.resistance.cema import INCH, POUND_FORCE
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +131,7 @@ CEMA_LIFT_OFF: Final = 1.11
 """Of CEMA's least radius of a concave curve, r = 1.11 T/w_belt [-]: it covers slopes up to 25.7 deg, whose cosine is
 1/1.11 (CEMA, Belt Conveyors for Bulk Materials, vertical curves; as commonly reproduced)."""
 
-CEMA_LEAST_TENSION: Final = 30.0 * 4.4482216152605 / 0.0254
+CEMA_LEAST_TENSION: Final = 30.0 * POUND_FORCE / INCH
 """That CEMA keeps in the middle of a convex curve, 30 lbf/in, in r = b sin β E/(9 (T_c - 30)) of equal rolls [N/m]
 (CEMA, Belt Conveyors for Bulk Materials, vertical curves; as commonly reproduced)."""
 

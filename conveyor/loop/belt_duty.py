@@ -28,7 +28,6 @@ from conveyor.laws.transition import (
 from conveyor.laws.vertical_curve import (
     CEMA_LEAST_TENSION,
     TroughSection,
-    buckling_radius,
     cema_lift_off_radius,
     lift_off_radius,
     trough_section,
@@ -37,7 +36,7 @@ from conveyor.line.bend_pulleys import BendPulley, TransitionZone
 from conveyor.line.line import Line
 from conveyor.line.stretches import RouteSection, Strand, Stretch
 from conveyor.loop.balance import Balance
-from conveyor.loop.belt_limits import StripLimits, allowed_tension, classic_safety, strip_limits
+from conveyor.loop.belt_limits import StripLimits, allowed_tension, classic_safety, strip_limits, taut_radius
 from conveyor.loop.pipe_curve_duty import pipe_curve_checks
 from conveyor.loop.pulley_duty import pulley_tensions
 from conveyor.loop.tensions import MotionState
@@ -329,14 +328,7 @@ def _cema_buckling_radius(line: Line, stretch: Stretch, lowest: float) -> float 
     width, stiffness = line.belt.width, line.belt.tensile_stiffness
     if stiffness is None:
         return None
-    if lowest / width <= CEMA_LEAST_TENSION:
-        return math.inf
-    return buckling_radius(
-        lowest / width,
-        distance=trough_of_stretch(stretch, width).middle_below,
-        stiffness_per_width=stiffness,
-        least_per_width=CEMA_LEAST_TENSION,
-    )
+    return taut_radius(lowest / width, trough_of_stretch(stretch, width).middle_below, stiffness, CEMA_LEAST_TENSION)
 
 
 def _vertical_strips(line: Line, stretch: Stretch, section: RouteSection, lowest: float, highest: float) -> StripLimits:

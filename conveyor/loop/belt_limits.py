@@ -60,14 +60,18 @@ def strip_limits(
     allowed, stiffness = allowed_tension(line), line.belt.tensile_stiffness
     if allowed is None or stiffness is None:
         return StripLimits()
-    over = slack = math.inf
+    over = math.inf
     if highest < allowed:
         over = overstress_radius(
             max(0.0, highest), distance=stretched, stiffness_per_width=stiffness, allowed_per_width=allowed
         )
-    if lowest > LEAST_EDGE_TENSION:
-        slack = buckling_radius(
-            lowest, distance=slackened, stiffness_per_width=stiffness, least_per_width=LEAST_EDGE_TENSION
-        )
+    slack = taut_radius(lowest, slackened, stiffness, LEAST_EDGE_TENSION)
     turned = stiffness / radius
     return StripLimits(over, slack, highest + turned * stretched, lowest - turned * slackened)
+
+
+def taut_radius(lowest: float, slackened: float, stiffness: float, least: float) -> float:
+    """Least radius at which the strip at a distance [m] keeps the least tension per width; infinite where none does."""
+    if lowest <= least:
+        return math.inf
+    return buckling_radius(lowest, distance=slackened, stiffness_per_width=stiffness, least_per_width=least)
