@@ -27,7 +27,7 @@ says what of it is printed and what is assumed. `python tests/test_printed_page.
 | figure | meaning | compare with |
 |---|---|---|
 | *expected* | for energy and cost | measured conveyors: no allowances |
-| *least*, *design* | ends of the band of nine tenths | *design* with printed designs: allowances of their method |
+| *low*, *design* | lower and upper end of the 90 % band | *design* with printed designs: allowances of their method |
 | *classical* | ISO 5048 / DIN 22101 with the source's f, else 0.020 | |
 
 """
@@ -69,7 +69,7 @@ def three_digits(value: float) -> str:
 
 def row(one: PracticeFigure) -> str:
     what, unit = QUANTITIES[one.resistance]
-    computed = map(three_digits, (one.stated, one.least, one.expected, one.design))
+    computed = map(three_digits, (one.stated, one.low, one.expected, one.design))
     classical = "" if one.classical is None else three_digits(one.classical)
     ratios = (f"{each / one.stated:.{DIGITS}f}" for each in (one.expected, one.design))
     where = "in the band" if one.within else "above the band" if one.stated > one.design else "below the band"
@@ -89,7 +89,7 @@ def written() -> str:
             f"{found.within} of {found.count} figures lie in the band, and all those of {found.conveyors_within} of "
             f"{found.conveyors} conveyors; medians: design over stated "
             f"{found.design_over_stated:.2f}, expected over stated {found.expected_over_stated:.2f}.\n\n"
-            "| conveyor | resistance | stated | least | expected | design | classical | expected / stated | "
+            "| conveyor | resistance | stated | low | expected | design | classical | expected / stated | "
             "design / stated | stated lies | assumed |\n"
             "|---|---|---|---|---|---|---|---|---|---|---|\n" + "\n".join(map(row, chosen)) + "\n\n"
         )
@@ -120,7 +120,7 @@ def test_printed_designs_lie_at_the_upper_end():
 
 def test_the_band_is_that_of_each_conveyor():
     for one in figures():
-        assert 0.0 < one.least < one.expected < one.design
+        assert 0.0 < one.low < one.expected < one.design
 
 
 if __name__ == "__main__":

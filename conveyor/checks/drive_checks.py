@@ -88,7 +88,7 @@ def comes_to_rest(result: CalculatedConveyor) -> Iterator[Check]:
         )
     words = _rest_text(alone, moving.runaway)
     safe = alone is not None or stopped is not None
-    asked = message("a stop at minimum friction" if brakes == 0.0 else "a stop at minimum friction, or brakes")
+    asked = message("a stop with the least friction" if brakes == 0.0 else "a stop with the least friction, or brakes")
     yield Check(
         "comes_to_rest", message("coast-down stop"), None if alone is None else alone.time, None,
         "duration", words, asked, pass_or_fail(holds=safe), why, _AT_MOST,
@@ -97,7 +97,7 @@ def comes_to_rest(result: CalculatedConveyor) -> Iterator[Check]:
         why = message("brakes of {} do not stop the conveyor", (brakes, "force"))
         yield Check(
             "comes_to_rest", message("coast-down stop, brakes on"), None if stopped is None else stopped.time,
-            None, "duration", _rest_text(stopped, None), message("a stop at minimum friction"),
+            None, "duration", _rest_text(stopped, None), message("a stop with the least friction"),
             pass_or_fail(holds=stopped is not None), why, _AT_MOST,
         )  # fmt: skip
 
@@ -114,6 +114,7 @@ def holding_brake(result: CalculatedConveyor) -> Iterator[Check]:
     moving, line = result.motions, result.line
     given = any(drive.brake is not None for drive in line.drives)
     brakes = math.fsum(line.brakes)
+    where = LEAST if line.least_friction < 1.0 else ""
     if moving.brake_to_hold > 0.0:
         bear = _backstop_forces(line) if moving.rolls_back else ()
         blind = moving.rolls_back and not bear and any(drive.backstop is True for drive in line.drives)
@@ -124,13 +125,13 @@ def holding_brake(result: CalculatedConveyor) -> Iterator[Check]:
         made = check_against_limit(
             "holding_brake", f"holding {what}, loaded belt", math.fsum((brakes, *bear)), "at least",
             moving.brake_to_hold, "force", wording=None if known else message(none),
-            why=f"the loaded belt needs a {what} of {{required}} at the belt to stay at rest",
+            where=where, why=f"the loaded belt needs a {what} of {{required}} at the belt to stay at rest",
         )  # fmt: skip
         yield made if known else replace(made, verdict="not checked")
     if moving.brake_to_stop is not None:
         yield check_against_limit(
             "stopping_brake", "brakes for the specified deceleration", brakes, "at least", moving.brake_to_stop,
-            "force", wording=None if given else message("no brake given"),
+            "force", wording=None if given else message("no brake given"), where=where,
             why="drive.stop_deceleration requires brakes of {required} at the belt, given: {calculated}",
         )  # fmt: skip
 

@@ -162,11 +162,11 @@ def _compare_with_practice() -> None:
     from conveyor.validation.practice_cases import QUANTITIES, practice_figures, practice_summary
 
     figures = list(practice_figures())
-    heads = ("conveyor", "resistance", "stated", "least", "expected", "design")
+    heads = ("conveyor", "resistance", "stated", "low", "expected", "design")
     made = plain_table("Conveyors in practice, stated and computed", heads, left=("conveyor", "resistance"))
     for one in figures:
         what, unit = QUANTITIES[one.resistance]
-        computed = (f"{each:.4g}" for each in (one.least, one.expected, one.design))
+        computed = (f"{each:.4g}" for each in (one.low, one.expected, one.design))
         made.add_row(
             f"{one.source} ({one.evidence})",
             f"{what}, {one.loading} [{unit}]",
@@ -177,7 +177,7 @@ def _compare_with_practice() -> None:
     for evidence in ("printed", "measured"):
         found = practice_summary([one for one in figures if one.evidence == evidence])
         print(
-            f"{evidence}: {found.within} of {found.count} figures between least and design, all of "
+            f"{evidence}: {found.within} of {found.count} figures between low and design, all of "
             f"{found.conveyors_within} of {found.conveyors} conveyors; median of design over stated "
             f"{found.design_over_stated:.2f}, of expected over stated {found.expected_over_stated:.2f}"
         )

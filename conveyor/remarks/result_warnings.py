@@ -272,8 +272,8 @@ def _drive_warnings(result: CalculatedConveyor) -> Iterator[Message]:
         given = "least_friction" in drive.model_fields_set
         source = "" if given else ", general knowledge: f 0.012 downhill over 0.020"
         yield message(
-            f"drive force {{}} at {percent(drive.certain_friction)} of the calculated friction, the minimum "
-            f"(drive.least_friction{source}), {{}} at all of it; grip and brakes are checked at the minimum",
+            f"drive force {{}} at {percent(drive.certain_friction)} of the calculated friction, the least "
+            f"(drive.least_friction{source}), {{}} at all of it; grip and brakes are checked at the least",
             (balance.settled.least_force, "force"),
             (balance.forces.total, "force"),
         )

@@ -50,7 +50,7 @@ class PracticeFigure:
         Loading of the belt.
     stated : float
         Printed or measured [N], f [-].
-    expected, least, design : float
+    expected, low, design : float
         Computed, and both ends of the band that holds nine tenths, of the same unit.
     classical : float or None
         By ISO 5048 / DIN 22101 with the spec's f; None of a single set.
@@ -64,14 +64,14 @@ class PracticeFigure:
     loading: Literal["full", "empty"]
     stated: float
     expected: float
-    least: float
+    low: float
     design: float
     classical: float | None
 
     @property
     def within(self) -> bool:
         """True if the stated figure lies in the band."""
-        return self.least <= self.stated <= self.design
+        return self.low <= self.stated <= self.design
 
 
 def practice_figures() -> Iterator[PracticeFigure]:
@@ -101,7 +101,7 @@ def practice_figures() -> Iterator[PracticeFigure]:
                 loading=figure["loading"],
                 stated=float(figure["value"]),
                 expected=expected,
-                least=low * expected,
+                low=low * expected,
                 design=high * expected,
                 classical=_classical_figure(result, figure["what"]),
             )

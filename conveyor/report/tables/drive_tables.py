@@ -104,7 +104,7 @@ def start_stop_table(a: CalculatedConveyor) -> Table:
 
 
 def brake_table(a: CalculatedConveyor) -> Table:
-    """Torque and heat of every brake in a stop at minimum friction."""
+    """Torque and heat of every brake in a stop with the least friction."""
     whole, heat = math.fsum(a.line.brakes), a.motions.braking_heat
     columns = (
         Column("drive", "text", "name"),
