@@ -1,4 +1,4 @@
-"""Specs: the examples, round trips, one line with file:line:column for every error, hostile files."""
+"""Specs: the examples, round trips, one line with file:line:column for every error; files that are none: robustness."""
 
 from __future__ import annotations
 
@@ -65,19 +65,10 @@ def test_good_spec(tmp_path: Path) -> None:
 
 POSITIONS = [
     ("speed: 5 m/s", "speed: 5 m", '4:10 belt.speed: got "5 m" (a length), expected a speed such as "5 m/s"'),
-    ("width: 1200 mm", "width: 1200", '3:10 belt.width: got 1200 without a unit; give the unit, e.g. "1200 mm"'),
-    ("  width: 1200 mm\n", "", '2:1 belt.width: missing; expected a length such as "1200 mm"'),
     ("width:", "widht:", '3:3 belt.widht: unknown key "widht"; did you mean "width"?; keys allowed: width, speed,'),
-    ("spacing: 1.5 m", "spacing: 1,5 m", '11:14 idlers.carry.spacing: got "1,5 m": a comma is ambiguous;'),
     ("rolls: 3", "rolls: 7", "10:12 idlers.carry.rolls: got 7, allowed: 1, 2, 3, 4, 5 or 6"),
     ("rolls: 3", 'rolls: "3"', '10:12 idlers.carry.rolls: got "3", allowed: 1, 2, 3, 4, 5 or 6'),
-    ("length: 500 m", "length: 500", '21:27 route.sections[0].length: got 500 without a unit; give the unit, e.g. '
-     '"500 m"'),
     ("length: 500 m", "length: 0 ft", "21:27 route.sections[0].length: got 0 ft, allowed: > 0 ft and <= 328084 ft"),
-    ("lift: 10 m", "lift: 310 m", "22:40 route.sections[1].lift: got 310 m, but the section is only 300 m long;"),
-    ("name: two", "name: one", '22:14 route.sections[1].name: got "one", already the name of sections[0];'),
-    ("compound: standard-cover", "compound: standart-cover",
-     '6:45 belt.bottom_cover.compound: unknown compound "standart-cover"; did you mean "standard-cover"?;'),
     ("name: coal", "name: 5", "18:18 material.name: expected text, got 5"),
     ("friction: 0.35", "friction: high", '23:40 drive.friction: expected a number, got "high"'),
     ("friction: 0.35", "friction: 3.5", "23:40 drive.friction: got 3.5, allowed: <= 1"),
@@ -85,35 +76,18 @@ POSITIONS = [
     ("friction: 0.35", "friction: yes", '23:40 drive.friction: expected a number, got "yes"'),
     ("friction: 0.35", "friction: true", "23:40 drive.friction: expected a number, got true"),
     ("efficiency: 95 %", "efficiency: 95", "23:58 drive.efficiency: got 95, allowed: > 0 and <= 1"),
-    ("drive: {wrap", "drive: [] #", "23:1 drive: expected fields (key: value), got a list"),
     ("flow: 2000 t/h", "flow: 9000 t/h", "18:51 material.flow: got 9000 t/h, which at 5 m/s (belt.speed) and "
      "850 kg/m^3 (material.density) needs"),
-    ("20 degC", "20 C", '24:24 ambient.temperature: got "20 C": unknown unit "C"; did you mean "20 degC"?'),
     ("20 degC", "95 degC",
      '24:24 ambient.temperature: got 95 degC, but belt.bottom_cover.compound is "standard-cover": compound'),
-    ("20 degC", "null", '24:24 ambient.temperature: expected a temperature such as "20 degC", got nothing'),
-    ("20 degC", "!!python/object:os.system x", "24:24 ambient.temperature: the tag !!python/object:os.system is not"),
-    ("name: test line", "name: test line\nname: again", "2:1 name: given twice, first in line 1; remove one"),
-    ("name: test line", "name: test line\n<<: {a: 1}", "2:1 <<: merge keys (<<) are not allowed"),
-    ("name: test line", "name: test line\n[a]: 1", "2:1 file: expected text before the colon, got a list"),
     ("name: test line", "name: test line\noperation: {hours_per_year: 5 h, price: 1 EUR}",
      '2:41 operation.price: got "1 EUR", expected a price'),
     ("name: test line", "name: test line\ncalculation: {support: confned}",
      '2:24 calculation.support: got "confned", allowed: \'confined\', \'belt\', \'free\' or \'half-space\''),
     ("name: test line", "name: test line\ncalculation: {gauss_points: 3.5}",
      "2:29 calculation.gauss_points: expected a whole number, got 3.5"),
-    ("name: test line", 'name: ""', "1:7 name: empty; give some text"),
     ("mass: 12 kg/m^2", "mass: null", "2:1 belt.mass: missing: give belt.mass or belt.carcass.mass"),
-    ("    - {name: one, length: 500 m}\n    - {name: two, length: 300 m, lift: 10 m}", "    []",
-     "20:3 route.sections: got 0 entries, at least 1 needed"),
     ("speed: 5 m/s", "speed: [5 m/s]", '4:3 belt.speed: expected a speed such as "5 m/s", got a list'),
-    ("name: test line", "name: 'open", "1:7 syntax: a quote is opened here and not closed; add the second one"),
-    ("name: test line", "name: [1", "2:5 syntax: a comma or the closing ] is missing before this place"),
-    ("  width: 1200 mm", "\twidth: 1200 mm", "3:1 syntax: a tab; indent with spaces, not tabs"),
-    ("name: test line", "name: a: b", "1:8 syntax: a colon where none may stand; look here and in the line before"),
-    ("name: test line", "name: *nobody", "1:7 syntax: a value begins with \"*\", it has a meaning"),
-    ("ambient:", "---\nambient:", "24:1 syntax: a second document begins here; remove lines that begin with"),
-    ("name: test line", "name: \x07", "1:7 syntax: a control character; remove it"),
 ]  # fmt: skip
 
 
@@ -180,53 +154,11 @@ def test_errors_of_a_compound_file_carry_its_own_lines(tmp_path: Path) -> None:
     assert any(f"{tmp_path}/mine.yaml:2:7 kind: got \"guessed\", allowed: 'measured'" in line for line in lines)
 
 
-@pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        (b"", ":1:1 file: empty; expected fields"),
-        (b"# only a comment\n", ":1:1 file: empty; expected fields"),
-        (b"- a\n- b\n", r":1:1 file: expected fields \(key: value\), got a list"),
-        (b"\n\n  just text\n", ":3:3 file: expected fields .* got a single value"),
-        (b"a: 1\nname: M\xfcller\n", ":2:8 file: not UTF-8 text .byte 0xfc.; save it as UTF-8"),
-        (b"\xff\xfea\x00", ":1:1 file: UTF-16 text, expected UTF-8; save it as UTF-8"),
-        (b"a: 1\n" * 1_100_000, "larger than 5,000,000 bytes"),
-        (b"a: " + b"[" * 1500, ":1:54 syntax: nested deeper than 50 levels"),
-        (b"a: " + b"[" * 60 + b"]" * 60, ":1:5[0-9] syntax: nested deeper than 50 levels"),
-        (b"a: &a [*a]\n", "nested deeper than 50 levels"),
-    ],
-)
-def test_unusable_file(tmp_path: Path, content: bytes, message: str) -> None:
-    with pytest.raises(InputError, match=message):
-        spec.load(write(tmp_path, content))
-
-
-def test_multiplying_aliases_are_stopped(tmp_path: Path) -> None:
-    levels = ["a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
-    levels += [f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]" for i in range(1, 10)]
-    # expanded it has 10^10 values, and no machine would come to an end
-    with pytest.raises(InputError, match="more than 500,000 values, aliases expanded"):
-        spec.load(write(tmp_path, "\n".join(levels)))
-
-
 def test_anchors_and_aliases_are_read(tmp_path: Path) -> None:
     line = spec.load(
         write(tmp_path, GOOD.replace("one, length: 500 m", "one, length: &l 500 m").replace("300 m", "*l"))
     )
     assert [text(section.length) for section in line.route.sections] == ["500 m", "500 m"]
-
-
-@pytest.mark.parametrize(
-    ("name", "message"),
-    [
-        ("none.yaml", "none.yaml: no such file"),
-        ("spec.toml", "ends in .yaml, .yml, .json or .xlsx"),
-        ("folder.yaml", "is a folder; give a file in it"),
-    ],
-)
-def test_unreadable_path(tmp_path: Path, name: str, message: str) -> None:
-    (tmp_path / "folder.yaml").mkdir()
-    with pytest.raises(InputError, match=message):
-        spec.load(tmp_path / name)
 
 
 def test_byte_order_mark_and_windows_lines_are_read(tmp_path: Path) -> None:

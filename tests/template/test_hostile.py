@@ -19,7 +19,7 @@ from conveyor import spec
 from conveyor.errors import InputError
 from conveyor.files.workbook_cells import Sheet, SheetCell
 from conveyor.forms import form_reader
-from conveyor.forms.form_reader import LARGEST_FILE, LIMITS, read_template, sheets_of
+from conveyor.forms.form_reader import LIMITS, read_template, sheets_of
 from conveyor.models import Conveyor
 from conveyor.starter.template_writer import write_template
 
@@ -93,11 +93,9 @@ CELLS: list[tuple[str, Any, Any, str]] = [
     ("belt.width", "1200 mm", "m", 'belt.width: got "1200 mm" beside the unit "m"; give the number alone'),
     ("belt.width", 1200, None, 'belt.width: got 1200.* without a unit; give the unit, e.g. "1200'),
     ("belt.width", 1200, "kg", r'belt.width: got "1200 kg" \(a mass\), expected a length such as "1200 mm"'),
-    ("belt.width", 1200, "milimeter", 'belt.width: .*unknown unit "milimeter"'),
     ("belt.width", 12, "m", "belt.width: got 12 m, allowed: >= 0.1 m and <= 5 m"),
     ("belt.width", True, "m", "belt.width: expected a length"),
     ("belt.width", "nan", "m", "belt.width: got .* expected a finite number"),
-    ("belt.width", None, "mm", "belt.width: missing; expected a length"),
     ("belt.width", " ", "mm", "belt.width: missing; expected a length"),
     ("drive.friction", "0,35", None, 'drive.friction: expected a number, got "0,35"'),
     ("drive.friction", 7, None, "drive.friction: got 7.*, allowed: <= 1"),
@@ -396,12 +394,6 @@ def edit(path: Path, part: str, how: Callable[[bytes], bytes]) -> None:
             archive.writestr(name, changed if name == part else content)
 
 
-def bomb(path: Path) -> None:
-    with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("xl/media/bomb", b"\0" * (LIMITS.content + 1))
-    assert path.stat().st_size < 10**6
-
-
 def crowd(path: Path) -> None:
     with zipfile.ZipFile(path, "a") as archive:
         for i in range(LIMITS.parts):
@@ -489,27 +481,10 @@ def test_what_would_swell_is_refused_at_once(path: Path, case: str) -> None:
     assert time.process_time() - begun < 1.0
 
 
-OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + b"\0" * 600
 FILES: dict[str, tuple[Callable[[Path], object], str]] = {
-    "password": (
-        lambda p: p.write_bytes(OLE + "EncryptedPackage".encode("utf-16-le")),
-        "protected by a password; save it without one",
-    ),
-    "old xls": (lambda p: p.write_bytes(OLE), "not a workbook of the .xlsx format; save it as .xlsx"),
     "encrypted zip": (encrypted_part, "protected by a password; save it without one"),
-    "truncated": (
-        lambda p: p.write_bytes(p.read_bytes()[:20_000]),
-        "damaged or cut short; save or copy it again",
-    ),
-    "not a zip": (
-        lambda p: p.write_text("name: x"),
-        r"not a workbook \(.xlsx\); write one with: conveyor template",
-    ),
-    "empty": (lambda p: p.write_bytes(b""), "empty; write one with"),
-    "zip bomb": (bomb, "unpacks to more than 10,000,000 bytes or 2,000 parts; this is no input workbook"),
     "many parts": (crowd, "unpacks to more than 10,000,000 bytes or 2,000 parts"),
     "lying zip bomb": (lying_bomb, r"damaged or cut short"),
-    "entities": (entities("utf-8"), "xl/workbook.xml declares a document type"),
     "entities in UTF-16": (entities("utf-16"), "xl/workbook.xml declares a document type"),
     "bad checksum": (
         lambda p: p.write_bytes(p.read_bytes()[:2000] + b"\xff" * 40 + p.read_bytes()[2040:]),
@@ -524,9 +499,6 @@ FILES: dict[str, tuple[Callable[[Path], object], str]] = {
         "damaged or incomplete; save or copy it again",
     ),
     "other zip": (lambda p: zipfile.ZipFile(p, "w").close(), "not a workbook|damaged or incomplete"),
-    "large": (lambda p: p.write_bytes(b"PK" + b"\0" * LARGEST_FILE), "larger than 3,000,000 bytes"),
-    "gone": (lambda p: p.unlink(), "no such file"),
-    "folder": (lambda p: (p.unlink(), p.mkdir()), "is a folder; give a file in it"),
 }
 
 
@@ -541,15 +513,6 @@ def test_files_that_are_no_workbooks_are_refused(path: Path, case: str) -> None:
 def test_only_xlsx_is_read(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r'expected a workbook that ends in .xlsx, got "a.xlsm"'):
         read_template(tmp_path / "a.xlsm")
-
-
-def test_a_workbook_of_something_else_is_refused(tmp_path: Path) -> None:
-    Workbook().save(tmp_path / "other.xlsx")
-    with pytest.raises(
-        InputError,
-        match='none of the template\'s sheets is in it, such as "Conveyor"; write a template with: conveyor template',
-    ):
-        read_template(tmp_path / "other.xlsx")
 
 
 # -- writing
