@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,20 +77,13 @@ class RubberFreeForces:
 
     def joined(self, back: RubberFreeForces) -> RubberFreeForces:
         """Join these forces of the carry strand with those of the return strand."""
-
-        def both(one: Array, other: Array) -> Array:
-            return np.concatenate([one, other])
-
-        pairs = [(self.guidance, back.guidance), (self.flexure, back.flexure)]
         none = np.zeros_like(self.lift)
-        guidance, flexure = (
-            None if one is other is None else both(*(none if part is None else part for part in (one, other)))
-            for one, other in pairs
-        )
-        return RubberFreeForces(
-            both(self.misalignment, back.misalignment), both(self.tilt, back.tilt), guidance,
-            both(self.lift, back.lift), both(self.unit_main, back.unit_main), flexure,
-        )  # fmt: skip
+        joined: dict[str, Any] = {}
+        for name in (field.name for field in fields(self)):
+            pair = getattr(self, name), getattr(back, name)
+            known = [part for part in pair if part is not None]
+            joined[name] = np.concatenate([none if part is None else part for part in pair]) if known else None
+        return RubberFreeForces(**joined)
 
 
 def rubber_free_forces(strands: Strands) -> RubberFreeForces:

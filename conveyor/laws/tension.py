@@ -14,11 +14,6 @@ from conveyor.arguments.limits import require, require_not_negative, require_pos
 
 Carcass = Literal["polyamide", "EP", "steel cord"]
 
-DRIVE_FRICTION_LAGGED: Final = 0.35  # [-], worked examples; a default
-DRIVE_FRICTION_BARE: Final = 0.25  # [-], worked examples; a default
-DRIVE_FRICTION_RUBBER_ON_STEEL: Final = 0.30  # [-], worked examples; a default
-RELATIVE_SAG: Final = 0.01  # [-], 1 to 2 % in operation; the ISO 5048 worked example's carry strand
-START_FACTOR_RANGE: Final = (1.2, 1.5)  # [-], start over steady drive force
 PULLEY_FACTOR: Final[Mapping[Carcass, float]] = {"polyamide": 90.0, "EP": 108.0, "steel cord": 145.0}  # c [-]
 LARGEST_FRICTION: Final = 2.0  # [-], beyond any pair of belt and pulley: catches slips of the pen
 LARGEST_WRAP: Final = 8.0 * math.pi  # [rad], four pulleys of a full turn: catches degrees given as rad

@@ -80,13 +80,7 @@ _MAKER_FIELDS = {"pulleys": {"diameter", "shaft_diameter", "mass"}}
 
 
 def find_item(kinds: Collection[MakerKind], name: str, info: ValidationInfo, others: Iterable[str] = ()) -> ListedItem:
-    """Item of the makers' lists of the validation context, without one of those for the working folder.
-
-    Raises
-    ------
-    InputError
-        There is none of that name, or there are two.
-    """
+    """Item of the makers' lists of the validation context, without one of those for the working folder."""
     lists: MakerLists = (info.context or {}).get("lists") or MakerLists()
     return lists.item(kinds, name, others)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Final, Self, TypeAlias
 
 from conveyor.report.row_getters import path_getter
+from conveyor.report.table_model import Table
 
 SCHEMA_VERSION: Final = 1
 """Increased where a key goes or changes its meaning, not for a new key."""
@@ -136,9 +137,9 @@ def text_list(get: Any, of: str = "") -> JsonList:
     return JsonList(get, describe_value(of), item=text_key(lambda text: text))
 
 
-def number_list(get: Any, of: str = "", *, known: bool = True) -> JsonList:
+def number_list(get: Any, *, known: bool = True) -> JsonList:
     """Return a key with a list of numbers."""
-    return JsonList(get, describe_value(of), item=number_key(lambda number: number, known=known))
+    return JsonList(get, item=number_key(lambda number: number, known=known))
 
 
 def free_object(get: Any, *kinds: str) -> JsonObject:
@@ -146,14 +147,10 @@ def free_object(get: Any, *kinds: str) -> JsonObject:
     return _OpenObject(get, {"additionalProperties": {"type": list(kinds)}})
 
 
-def number_object(get: Any, *names: str, of: str = "", optional: bool = False) -> JsonObject:
+def number_object(get: Any, *names: str, of: str = "") -> JsonObject:
     """Return a key with an object of numbers: those named, and maybe more."""
     more = {"additionalProperties": {"type": "number"}}
-
-    def plain_number(name: str) -> JsonKey:
-        return number_key(lambda held: held[name])
-
-    return _OpenObject(get, more | describe_value(of), optional, keys={name: plain_number(name) for name in names})
+    return _OpenObject(get, more | describe_value(of), keys={name: number_key(name) for name in names})
 
 
 class _OpenObject(JsonObject):
@@ -169,12 +166,12 @@ ROW_SCHEMA: Final[Schema] = {
     "additionalProperties": {"type": ["number", "string", "boolean", "null"]},
 }
 """Schema of a row of a table under the names of its columns."""
-TABLE_ROWS: Final = "rows of a table, under the names of its columns with their units"
 
 
-def table_rows(get: Callable[[Any], Any], of: str = TABLE_ROWS) -> JsonList:
-    """Return a key with the rows of a table, under the names of its columns."""
-    return JsonList(get, describe_value(of), item=JsonKey(lambda row: row, ROW_SCHEMA))
+def table_rows(make: Callable[[Any], Table]) -> JsonList:
+    """Return a key with the rows of a table of an object, under the names of its columns."""
+    said = describe_value("rows of a table, under the names of its columns with their units")
+    return JsonList(lambda of: make(of).records(), said, item=JsonKey(lambda row: row, ROW_SCHEMA))
 
 
 def row_list(get: Any, *texts: str, numbers: tuple[str, ...], also: tuple[str, ...] = (), of: str = "") -> JsonList:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 import numpy as np
 
@@ -86,17 +87,15 @@ def add_legend(axis: Axes) -> None:
             text.set_parse_math(False)
 
 
-def finish_figure(
-    figure: Figure, x: str = "", y: str = "", title: str = "", *, note: str = "", group: str = ""
-) -> Figure:
+def finish_figure(figure: Figure, x: str, y: str = "", title: str = "", *, group: str = "") -> Figure:
     """Label the axes as `label_axes`, set the title, and return the figure."""
     label_axes(figure.axes[0], x, y, group=group)
     if title:
-        set_title(figure, title, note)
+        set_title(figure, title)
     return figure
 
 
-def label_axes(axis: Axes, x: str = "", y: str = "", *, group: str = "") -> None:
+def label_axes(axis: Axes, x: str, y: str, *, group: str = "") -> None:
     """Label both axes, group the thousands of those in `group` ("x", "y"), add a legend."""
     axis.set(xlabel=x, ylabel=y)
     for name in group:
@@ -156,26 +155,17 @@ def drawing_settings(*, letters: Literal["path", "none"] = "path") -> Iterator[N
         yield
 
 
-class PowerScenes(Protocol):
-    """Results over temperature and speed: a `conveyor.Comparison`, or one compound alone."""
+@dataclass(frozen=True)
+class ConveyorSweep:
+    """Power of a conveyor with its own rubber at several temperatures and speeds, as of a comparison."""
 
-    @property
-    def conveyor(self) -> Conveyor:
-        """Conveyor that was varied."""
-
-    @property
-    def compounds(self) -> tuple[RubberCompound, ...]:
-        """Compounds, one curve each."""
-
-    @property
-    def scenes(self) -> tuple[ComparedScene, ...]:
-        """Scenes with a solution."""
-
-    @property
-    def coverage(self) -> tuple[Coverage, ...]:
-        """Coverage of the excited band by the data."""
+    conveyor: Conveyor
+    compounds: tuple[RubberCompound, ...]
+    scenes: tuple[ComparedScene, ...]
+    coverage: tuple[Coverage, ...]
 
 
+PowerScenes: TypeAlias = "CalculatedComparison | ConveyorSweep"
 PowerAxis: TypeAlias = Literal["temperature", "speed"]
 """Variable of the abscissa; the other is fixed."""
 
@@ -199,11 +189,6 @@ def power_over(comparison: PowerScenes, over: PowerAxis, at: float | None = None
     """Motor power of every compound over temperature at one speed [m/s], or over belt speed at one temperature [K].
 
     By default that of `fixed_condition`. Bands of the fit's replicas are shaded; dotted beyond the rubber's data.
-
-    Raises
-    ------
-    InputError
-        No scene is solved there, or no temperature for all compounds.
     """
     chosen, other = fixed_condition(comparison, over) if at is None else at, _OTHER_AXIS[over]
     if chosen is None:
@@ -320,11 +305,6 @@ def compared_loss_tangents(
     """Loss tangents of all compounds at one temperature [K], and the band that the conveyor's rolls excite there.
 
     By default the temperature nearest the spec's that is solved for every compound.
-
-    Raises
-    ------
-    NoSolutionError
-        No temperature is solved for every compound.
     """
     at = [{row.temperature for row in comparison.coverage if row.compound == c.name} for c in comparison.compounds]
     common = set.intersection(*at)

@@ -102,25 +102,14 @@ class SheetWriter:
     live: dict[tuple[str, str], float | str] = field(default_factory=dict)
     name: str = ""
 
-    def place(
-        self,
-        key: str,
-        row: int,
-        column: int = 1,
-        *,
-        heading: bool = True,
-        widest: int = _NAME_CHARACTERS,
-        **wider: int,
-    ) -> TablePlace:
+    def place(self, key: str, row: int, column: int = 1, *, widest: int = _NAME_CHARACTERS, **wider: int) -> TablePlace:
         """Write a table, its heading at (row, column) and its header below; define names for it and its figures.
 
         Text wraps at `widest` [characters], that of single columns at those in `wider`.
         """
         part = self.contents[key].on_sheet()
-        top = row
-        if heading:
-            write_value(self.sheet.cell(row, column), part.heading, HEADING)
-            top = row + 1
+        write_value(self.sheet.cell(row, column), part.heading, HEADING)
+        top = row + 1
         shown, whole = part, len(part.rows) <= MOST_ROWS
         if not whole:
             where = long_table_file(self.stem, part)

@@ -70,10 +70,10 @@ def write_summary(page: SheetWriter, places: Mapping[str, tuple[Worksheet, Table
     sheet.print_options.horizontalCentered = True
 
 
-def _ruled_heading(sheet: Worksheet, row: int, words: str, column: int = 1, last: int = 7) -> None:
+def _ruled_heading(sheet: Worksheet, row: int, words: str) -> None:
     """Write a heading with a rule across columns."""
-    write_value(sheet.cell(row, column), words, HEADING)
-    for j in range(column, last + 1):
+    write_value(sheet.cell(row, 1), words, HEADING)
+    for j in range(1, 8):
         sheet.cell(row, j).border = _RULE
 
 

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Final
 
 from conveyor.errors import InputError
 from conveyor.line.stretches import Strand
-from conveyor.models import Conveyor, RubberCompound
+from conveyor.models import Conveyor
 from conveyor.models.variants import scale_quantity
 from conveyor.report import analysis_plots, plots
 from conveyor.report.tables import transfer_tables
 from conveyor.report.tables.curve_tables import drifts_by_case
 from conveyor.report.tables.loop_tables import section_boundaries
 from conveyor.studies import CalculatedStudies
-from conveyor.studies.comparison_scenes import ComparedScene, Coverage, calculate_compound
+from conveyor.studies.comparison_scenes import calculate_compound
 from conveyor.studies.loads import design_loads
 from conveyor.units import Quantity, System, quantity
 from conveyor.units.sentences import to_celsius
@@ -187,23 +187,13 @@ class AnalysisPlots:
         return report_system(self.analysis.conveyor.report.units, system)
 
 
-@dataclass(frozen=True)
-class _ConveyorSweep:
-    """Results of a conveyor with its own rubber at several temperatures and speeds."""
-
-    conveyor: Conveyor
-    compounds: tuple[RubberCompound, ...]
-    scenes: tuple[ComparedScene, ...]
-    coverage: tuple[Coverage, ...]
-
-
-def _sweep_conveyor(conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quantity]) -> _ConveyorSweep:
+def _sweep_conveyor(conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quantity]) -> plots.ConveyorSweep:
     compound = conveyor.carry_compound
     varied = calculate_compound(conveyor, compound, temperatures, speeds, cover="bottom", rtol=_RTOL, lot_scatter=0.0)
     if not varied.scenes:
         why = "; ".join(dict.fromkeys(refusal.reason for refusal in varied.refused))
         raise InputError(f"nothing to draw: {why}")
-    return _ConveyorSweep(conveyor, (compound,), varied.scenes, varied.coverage)
+    return plots.ConveyorSweep(conveyor, (compound,), varied.scenes, varied.coverage)
 
 
 def _study_figures(studies: CalculatedStudies, system: System) -> Iterator[tuple[str, Figure]]:
@@ -216,10 +206,7 @@ def _study_figures(studies: CalculatedStudies, system: System) -> Iterator[tuple
         yield "ranges", analysis_plots.tornado_chart(studies.uncertainty, system=system)
         exact = studies.uncertainty.monte_carlo
         if exact is not None:
-            yield (
-                "draws",
-                analysis_plots.interval_convergence(exact, studies.uncertainty.sampled, system=system),
-            )
+            yield "draws", analysis_plots.interval_convergence(exact, studies.uncertainty.sampled, system=system)
 
 
 @dataclass(frozen=True, eq=False)

@@ -120,10 +120,10 @@ STUDY_KEYS: Final[dict[str, JsonKey]] = {
         keys={
             "conveyor": text_key("cases.conveyor.name"),
             "friction_band": number_list("cases.friction_band"),
-            "cases": table_rows(lambda studies: case_table(studies.cases).records()),
-            "governing": table_rows(lambda studies: governing_cases(studies.cases, studies.governing).records()),
-            "motors": table_rows(lambda studies: motor_table(studies, "SI").records()),
-            "refused": table_rows(lambda studies: refused_cases(studies.cases).records()),
+            "cases": table_rows(lambda studies: case_table(studies.cases)),
+            "governing": table_rows(lambda studies: governing_cases(studies.cases, studies.governing)),
+            "motors": table_rows(lambda studies: motor_table(studies, "SI")),
+            "refused": table_rows(lambda studies: refused_cases(studies.cases)),
         },
     ),
     "duty": JsonObject(
@@ -134,7 +134,7 @@ STUDY_KEYS: Final[dict[str, JsonKey]] = {
             "conveyor": text_key("conveyor.name"),
             "year": JsonKey(lambda study: year_table(study).series("").to_dict(), ROW_SCHEMA),
             "emission_source": text_key("emission_source", known=False),
-            "duty": table_rows(lambda study: duty_table(study).records()),
+            "duty": table_rows(duty_table),
         },
     ),
     "uncertainty": JsonObject(
@@ -143,8 +143,8 @@ STUDY_KEYS: Final[dict[str, JsonKey]] = {
         optional=True,
         keys={
             "conveyor": text_key("conveyor.name"),
-            "band": table_rows(lambda study: power_bands(study).records()),
-            "tornado": table_rows(lambda study: sensitivity_table(study).records()),
+            "band": table_rows(power_bands),
+            "tornado": table_rows(sensitivity_table),
             "notes": text_list("notes"),
         },
     ),
