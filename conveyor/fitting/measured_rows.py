@@ -130,7 +130,7 @@ def shift_factors(superposition: Superposition | None, given: DmaData | None) ->
 
 
 def excluded_rows(
-    tables: Sequence[tuple[Path, str | None]], exclude: Sequence[str], others: Sequence[Path] = ()
+    tables: Sequence[tuple[Path, str | None]], exclude: Sequence[str], others: Sequence[Path]
 ) -> dict[int, str]:
     """Rows to leave out, as 12-15,20, by table number (file and sheet); from FILE:ROWS, or ROWS for a single file.
 

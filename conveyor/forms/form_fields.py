@@ -364,7 +364,7 @@ _MISREAD_IN_US: Final = "tph"
 """Metric tonnes per hour; a US reader takes them for short tons."""
 
 
-def in_system(leaf: FormField, system: System, units: Iterable[str | None] = ()) -> FormField:
+def in_system(leaf: FormField, system: System, units: Iterable[str | None]) -> FormField:
     """Field with range, default and units in a system; `units` are those filled in.
 
     A unit that a US reader takes for another is left out, where it is not filled in.

@@ -231,10 +231,7 @@ class Contacts:
 
 
 def solve_contacts(
-    lines: Sequence[Line],
-    covers: Sequence[Covers],
-    rtol: float | None = None,
-    known: LoadCurveCache | None = None,
+    lines: Sequence[Line], covers: Sequence[Covers], rtol: float | None, known: LoadCurveCache
 ) -> list[Contacts | NoSolutionError]:
     """Solve the contacts of many lines, or of many rubbers under one, in one batch.
 
@@ -265,8 +262,7 @@ def solve_contacts(
         for contact, kind in zip(contacts, line.kinds, strict=True):
             low, high = spans.get(contact, (kind.lowest, kind.highest))
             spans[contact] = min(low, kind.lowest), max(high, kind.highest)
-    before = {} if known is None else known
-    solved = {tolerance: _solve_load_curves(spans, tolerance, before) for tolerance, spans in jobs.items()}
+    solved = {tolerance: _solve_load_curves(spans, tolerance, known) for tolerance, spans in jobs.items()}
     curves = [
         _curves_or_error([solved[tolerance][contact] for contact in contacts])
         for contacts, tolerance in zip(asked, tolerances, strict=True)

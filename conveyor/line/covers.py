@@ -194,7 +194,7 @@ STRAIN_INTERPOLATION_RTOL: Final = 1e-4
 
 
 def softened_covers(
-    works: Sequence[CoverLoading], runs: Sequence[Sequence[CoverLoading]] = ()
+    works: Sequence[CoverLoading], runs: Sequence[Sequence[CoverLoading]]
 ) -> list[CoverState | NoSolutionError | RangeError]:
     """Covers at their working strain, where the compounds have strain sweeps, solved in one batch.
 

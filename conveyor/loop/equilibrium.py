@@ -286,7 +286,7 @@ class BatchEquilibrium:
 
 @np.errstate(over="ignore", invalid="ignore")  # of a row that grows until it is refused
 def solve_equilibria(
-    loops: LoopBatch, given: Array | None = None, *, serving: NDArray[np.bool_] | None = None
+    loops: LoopBatch, given: Array | None, *, serving: NDArray[np.bool_] | None
 ) -> tuple[BatchEquilibrium, dict[int, NoSolutionError]]:
     """Solve the equilibrium of loops under the forces along their belts, each independently or at one setting.
 

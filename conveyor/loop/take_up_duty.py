@@ -41,8 +41,6 @@ class TakeUpDuty:
         Index of the load that needs it.
     governed_by : str
         Governing condition of that load.
-    steady_means : tuple of float
-        Lowest and highest mean tension of the loop in steady running [N].
     mass : float or None
         Mass of a gravity take-up's weight [kg]; None where the belt's length is fixed.
     warmth : float
@@ -61,7 +59,6 @@ class TakeUpDuty:
     needed: float
     governing: int
     governed_by: str
-    steady_means: tuple[float, float]
     mass: float | None
     warmth: float
     travel: TakeUpTravel | None
@@ -134,12 +131,12 @@ def take_up_duty(
     every = [state.mean(loop.line.loop.length) for loop, of in zip(loops, states, strict=True) for state in of]
     known = list(temperatures)
     warmth = max(known) - min(known)
-    unit, setting, steady = line.take_up, settled.setting, (min(means), max(means))
+    unit, setting = line.take_up, settled.setting
     stiffness, strain = belt_stiffness(line.belt), _thermal_expansion(line.belt) * warmth
     travel, change = None, None
     if stiffness is not None:
         travel = take_up_travel(
-            steady,
+            (min(means), max(means)),
             (min(every), max(every)),
             stiffness=stiffness,
             loop_length=float(line.loop.way[-1]),
@@ -155,7 +152,6 @@ def take_up_duty(
         needed=settled.needed,
         governing=governing,
         governed_by=settled.governing,
-        steady_means=steady,
         mass=None if unit.keeps_length else take_up_weight_mass(line, setting),
         warmth=warmth,
         travel=travel,

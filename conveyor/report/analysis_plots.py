@@ -244,7 +244,7 @@ def tornado_chart(study: CalculatedRanges, *, system: System = "SI") -> Figure:
 
 
 @own_settings()
-def interval_convergence(exact: MonteCarlo, first_order: tuple[float, float], *, system: System = "SI") -> Figure:
+def interval_convergence(exact: MonteCarlo, first_order: tuple[float, float], *, system: System) -> Figure:
     """Ends of the 90 % interval of the motor power [kW, hp] over the number of draws, and those of first order."""
     figure, (axis,) = stacked_axes(1, 3.6)
     power, rows = display_unit("power", system, large=True), exact.convergence
@@ -375,7 +375,7 @@ def plan_view(line: Line, *, system: System = "SI") -> Figure:
 
 
 @own_settings()
-def drift_diagram(loads: Sequence[tuple[str, Sequence[HorizontalCurveCheck]]], *, system: System = "SI") -> Figure:
+def drift_diagram(loads: Sequence[tuple[str, Sequence[HorizontalCurveCheck]]], *, system: System) -> Figure:
     """Range of belt drift over all states of each load in every horizontal curve; the free roll width in grey."""
     bends, size = loads[0][1], display_unit("size", system)
     figure, (axis,) = stacked_axes(1, 1.4 + 0.7 * len(bends))
@@ -403,14 +403,14 @@ def drift_diagram(loads: Sequence[tuple[str, Sequence[HorizontalCurveCheck]]], *
 
 
 @own_settings()
-def tension_diagram(balance: Balance, moving: StartAndStop | None = None, *, system: System = "SI") -> Figure:
+def tension_diagram(balance: Balance, moving: StartAndStop, *, system: System) -> Figure:
     """Tension round the loop from the head, one line per motion state; the minimum for sag in grey."""
     figure, (axis,) = stacked_axes(1, _HEIGHT)
     settled = balance.settled
     shape = balance.line.loop
     force, length = display_unit("force", system, large=True), display_unit("length", system, large=True)
     way = length(np.repeat(shape.way, 2)[1:-1])
-    states = settled.states | ({} if moving is None else moving.states)
+    states = settled.states | moving.states
     for k, state in enumerate(states.values()):
         tensions = np.stack([state.starts, state.ends], axis=1).ravel()
         x = np.concatenate([[0.0], way, way[-1:]])
@@ -429,7 +429,7 @@ def tension_diagram(balance: Balance, moving: StartAndStop | None = None, *, sys
 
 
 @own_settings()
-def flap_diagram(result: CalculatedConveyor, *, system: System = "SI") -> Figure:
+def flap_diagram(result: CalculatedConveyor, *, system: System) -> Figure:
     """Natural frequencies of the belt between the idler sets in steady running, and the rotation of the rolls."""
     figure, (axis,) = stacked_axes(1, _HEIGHT)
     length, frequency, shape = (

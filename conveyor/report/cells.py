@@ -233,7 +233,7 @@ def mark_input(cell: Cell | MergedCell) -> None:
     cell.fill, cell.border, cell.protection = INPUT_FILL, _BOX, Protection(locked=False)
 
 
-def _cell_value(value: Any, infinite: str = INFINITY_SIGN) -> Any:
+def _cell_value(value: Any, infinite: str) -> Any:
     """Yes/no as text, infinity as a symbol, NaN as empty."""
     if isinstance(value, bool):
         return "yes" if value else "NO"
@@ -277,7 +277,7 @@ def _column_width(sheet: Worksheet, column: int) -> float:
     return float(sheet.column_dimensions[get_column_letter(column)].width)
 
 
-def write_totals(sheet: Worksheet, row: int, shown: Table, system: System, first: int = 1) -> None:
+def write_totals(sheet: Worksheet, row: int, shown: Table, system: System, first: int) -> None:
     """Write a table's line of totals from a first column, a rule above it."""
     for j, (column, value) in enumerate(zip(shown.columns, shown.totals(), strict=True), start=first):
         cell = sheet.cell(row, j)

@@ -254,7 +254,7 @@ def _column_curves(
     up: Sequence[str],
     *,
     title: str,
-    words: tuple[str, ...] = (),
+    words: tuple[str, ...],
 ) -> ScatterChart:
     """Columns of a table plotted over another; axes are titled as the columns by default."""
     x, y = place.column(across), [place.column(key) for key in up]

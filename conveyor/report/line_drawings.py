@@ -290,7 +290,7 @@ def band_chart(
     limit: float | None,
     unit: Unit,
     label: str,
-    limit_name: str = "",
+    limit_name: str,
 ) -> Html:
     """Draw one or two values, each with its band and on one scale, beside a limit.
 

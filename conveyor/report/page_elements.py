@@ -369,7 +369,7 @@ def fact_list(pairs: Iterable[tuple[str, Html | str]], kind: str = "facts") -> H
     return element("dl", *named, class_=kind)
 
 
-def key_figure_tiles(shown: Iterable[Figure], system: System = "SI", of: str = "") -> Html:
+def key_figure_tiles(shown: Iterable[Figure], system: System, of: str = "") -> Html:
     """Return key figures as large tiles; `of` stands behind their names."""
     pairs: list[tuple[str, Html | str]] = []
     for figure in shown:

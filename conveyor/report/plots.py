@@ -300,7 +300,7 @@ def loss_tangents(
 
 @own_settings()
 def compared_loss_tangents(
-    comparison: CalculatedComparison, temperature: float | None = None, *, system: System = "SI"
+    comparison: CalculatedComparison, temperature: float | None = None, *, system: System
 ) -> Figure:
     """Loss tangents of all compounds at one temperature [K], and the band that the conveyor's rolls excite there.
 

@@ -376,7 +376,6 @@ analyse = results_function("analyse", calculate, Analysis)
 analyse_cases = results_function("analyse_cases", case_study.analyse_cases, CaseStudy)
 analyse_duty = results_function("analyse_duty", duty_study.analyse_duty, DutyStudy)
 study_ranges = results_function("study_ranges", range_study.analyse_ranges, UncertaintyStudy)
-load_states = results_function("load_states", state_study.load_states, StateStudy)
 
 
 def analyse_studies(

@@ -25,7 +25,7 @@ _EXAMPLE_SECTION: Final = {"name": "tail to head", "length": "4000 m | 13500 ft"
 """Section of the example template."""
 
 
-def example_conveyor(units: System = "SI") -> Conveyor:
+def example_conveyor(units: System) -> Conveyor:
     """Example conveyor of the template: the overland starter on one straight section."""
     data = starter_values("overland", units)
     data["route"]["sections"] = [{key: in_units(value, units) for key, value in _EXAMPLE_SECTION.items()}]
@@ -75,9 +75,7 @@ def write_template(
     return where
 
 
-def template_bytes(
-    conveyor: Conveyor | None = None, *, shelves: Iterable[str | Path] = (), units: System = "SI"
-) -> bytes:
+def template_bytes(conveyor: Conveyor | None, *, shelves: Iterable[str | Path], units: System) -> bytes:
     """Input workbook as bytes, read back and compared; as `write_template`.
 
     Raises

@@ -113,9 +113,9 @@ def calculate_draws(
     ranges: Uncertainty,
     *,
     end: float,
-    take_up: TakeUpSetting | None = None,
-    rtol: float | None = None,
-    progress: ProgressCallback | None = None,
+    take_up: TakeUpSetting | None,
+    rtol: float | None,
+    progress: ProgressCallback | None,
 ) -> MonteCarlo:
     """Draw all inputs together and calculate every draw.
 

@@ -485,7 +485,7 @@ def design_results(campaign: ParametricStudy, known: ResultStore) -> Iterator[De
         yield design_result(campaign, known, design, number)
 
 
-def design_result(campaign: ParametricStudy, known: ResultStore, design: Changes, number: int = 1) -> Design:
+def design_result(campaign: ParametricStudy, known: ResultStore, design: Changes, number: int) -> Design:
     """A design over its states, whose points have answers."""
     keyed = ((campaign.key(point), point) for point in campaign.plan.points_of(design))
     answers = [campaign.answer(known, one) for one in keyed]

@@ -60,9 +60,10 @@ def test_scenarios_begin_with_the_weight_of_the_report(line, found):
 
 
 def test_travel_of_the_carriage_counts_every_load(line, found):
-    alone, told = analyse(line).take_up.travel, analyse(line).to_dict(found)["take_up"]
+    own = analyse(line)
+    alone, told = own.take_up.travel, own.to_dict(found)["take_up"]
     lowest = min(state.balance.settled.steady.mean(state.balance.line.loop.length) for state in found.states.states)
-    assert lowest < analyse(line).take_up.steady_means[0]
+    assert lowest < own.balance.settled.steady.mean(own.line.loop.length)
     assert told["travel_m"] > alone.whole
 
 

@@ -162,9 +162,7 @@ class GridFields:
         return self.grid.depth
 
 
-def surface_series(
-    layer: Layer, creep: CreepSpectrum, strip: tuple[float, Array], x: Array, reach: float = SERIES_REACH
-) -> Array:
+def surface_series(layer: Layer, creep: CreepSpectrum, strip: tuple[float, Array], x: Array, reach: float) -> Array:
     """u/R of one strip at X = x about its centre, |x| ≤ π, shape (p,): w = 2 Re Σ S_m p̃̂_m e^{imX}/m, m α ≤ `reach`.
 
     `strip` is its half width α and its coefficients c.

@@ -128,7 +128,7 @@ class CoarseContact:
             return None
 
 
-def solve_strips(scene: SolverState, rtol: float, seen: CoarseContact | None = None) -> SolveOutcome:
+def solve_strips(scene: SolverState, rtol: float, seen: CoarseContact | None) -> SolveOutcome:
     """Solve for a contact of any number of strips; `seen` is the coarse contact, if known."""
     grids: list[GridContact] = []
     failures: list[str] = []

@@ -188,7 +188,7 @@ def _load_mismatch_error(search: LoadSearch, miss: float) -> float:
 
 
 def _next_orders(
-    orders: tuple[int, int], pairs: list[OrderErrors], rtol: float, longest: int, *, bounds: bool = False
+    orders: tuple[int, int], pairs: list[OrderErrors], rtol: float, longest: int, *, bounds: bool
 ) -> tuple[int, int] | None:
     """Next core and last order: the one with the larger error is raised; None beyond the longest of both.
 

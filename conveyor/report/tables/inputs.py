@@ -84,9 +84,7 @@ def _readable_entry(entered: str) -> str:
     return spelled.removesuffix(" °") + "°" if spelled.endswith(" °") else spelled
 
 
-def group_inputs(
-    rows: Iterable[InputRow], system: System = "SI", *, alike: bool = False
-) -> tuple[tuple[str, str], ...]:
+def group_inputs(rows: Iterable[InputRow], system: System, *, alike: bool) -> tuple[tuple[str, str], ...]:
     """Rows grouped by part of the spec: part, fields with their values; with `alike`, list items merged."""
     parts: dict[str, dict[str, list[str]]] = {}
     for field, entered, value, sign, origin in rows:

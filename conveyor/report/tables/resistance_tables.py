@@ -101,7 +101,7 @@ def breakdown_table(a: CalculatedConveyor) -> Table:
     return Table("breakdown", "Resistances", heading, columns, tuple(forces.parts), printed=False)
 
 
-def classical_table(a: CalculatedConveyor, by_contact: CalculatedConveyor | None = None) -> Table:
+def classical_table(a: CalculatedConveyor, by_contact: CalculatedConveyor | None) -> Table:
     """Comparison with the other methods: a given f, CEMA where its factors are given, else the rolling contact."""
     balance, forces = a.balance, a.balance.forces
     of_rolls = None

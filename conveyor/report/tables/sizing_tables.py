@@ -388,7 +388,7 @@ def idler_cost(design: SizedDesign) -> float:
 
 
 @own_settings()
-def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Picture:
+def cost_shares(sizing: CalculatedSizing, *, system: System) -> Picture:
     """Yearly cost by part, one bar per design."""
     money = display_unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
     figure, (axis,) = stacked_axes(1, _HEIGHT + 0.22 * len(sizing.designs))
@@ -404,7 +404,7 @@ def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Picture:
 
 
 @own_settings()
-def cost_lines(sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System = "SI") -> Picture:
+def cost_lines(sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System) -> Picture:
     """Yearly cost of energy, idlers, belt and the rest, one choice varied around the best design."""
     money = display_unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
     figure, axes = stacked_axes(len(varied), _PANEL_HEIGHT * len(varied))
@@ -431,7 +431,7 @@ def cost_lines(sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, sy
 
 
 @own_settings()
-def spacing_diagram(sizing: CalculatedSizing, *, system: System = "SI") -> Picture:
+def spacing_diagram(sizing: CalculatedSizing, *, system: System) -> Picture:
     """Idler spacing of the best design along its profile, and the widest that sag and bearings allow."""
     figure, (axis, profile) = stacked_axes(2, _HEIGHT + _PANEL_HEIGHT)
     large, apart = display_unit("length", system, large=True), display_unit("spacing", system)

@@ -188,7 +188,7 @@ def discharge_drawing(a: CalculatedConveyor, system: System) -> tuple[Drawing, .
 
 
 @own_settings()
-def discharge_figure(a: CalculatedConveyor, *, system: System = "SI") -> Picture:
+def discharge_figure(a: CalculatedConveyor, *, system: System) -> Picture:
     """Discharge trajectory over the head pulley, to scale."""
     flight = a.trajectory
     if flight is None:
