@@ -51,7 +51,7 @@ class Variant:
         The spec.
     temperature : float, optional
         Temperature of the covers instead of the spec's [K]; the air stays.
-    level : mapping of strand to float
+    indentation_factors : mapping of strand to float
         Factor on a strand's indentation [-]; 1 if absent.
     roll_drag : float
         Factor on the drag of all rolls [-].
@@ -64,7 +64,7 @@ class Variant:
 
     conveyor: Conveyor
     temperature: float | None = None
-    level: Mapping[Strand, float] = field(default_factory=dict)
+    indentation_factors: Mapping[Strand, float] = field(default_factory=dict)
     roll_drag: float = 1.0
     take_up: TakeUpSetting | None = None
     design_friction: float | None = None

@@ -157,7 +157,7 @@ def _site_band(site: Site) -> tuple[float, float]:
 def _untested_share(result: CalculatedConveyor, _force: Force) -> NDArray[np.float64]:
     """Indentation of the strands whose rubber has no rolling-resistance tests."""
     covers = result.contacts.covers
-    return np.array([float(covers[stretch.strand].level is None) for stretch in result.line.stretches])
+    return np.array([float(covers[stretch.strand].test_factor is None) for stretch in result.line.stretches])
 
 
 def _tested_share(result: CalculatedConveyor, force: Force) -> Shares:
@@ -435,14 +435,14 @@ def _force_changes(
 def _untested_rubbers(result: CalculatedConveyor) -> Iterator[Message]:
     """Notes on rubbers tested at other temperatures: which, and the spectrum that extrapolates the test factor."""
     by_rubber = result.line.method == "viscoelastic"  # the other methods know no rubber
-    levels = [result.contacts.covers[strand].level for strand in STRANDS if by_rubber]
+    factors = [result.contacts.covers[strand].test_factor for strand in STRANDS if by_rubber]
     names: dict[tuple[tuple[float, ...], str], dict[str, None]] = {}
-    for level in levels:
-        if level is None or level.anchor.tested_at(level.temperature):
+    for tested_by in factors:
+        if tested_by is None or tested_by.rolling_tests.tested_at(tested_by.temperature):
             continue
-        tested = tuple(dict.fromkeys(level.anchor.temperatures[[0, -1]].tolist()))
-        spectrum = "constructed" if level.compound.kind == "illustrative" else "measured"
-        names.setdefault((tested, spectrum), {})[level.compound.name] = None
+        tested = tuple(dict.fromkeys(tested_by.rolling_tests.temperatures[[0, -1]].tolist()))
+        spectrum = "constructed" if tested_by.compound.kind == "illustrative" else "measured"
+        names.setdefault((tested, spectrum), {})[tested_by.compound.name] = None
     for (tested, spectrum), compounds in names.items():
         several = ", ".join(escape_braces(f'"{name}"') for name in compounds)
         yield message(

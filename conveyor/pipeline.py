@@ -140,8 +140,8 @@ def calculate_many(
             made.pop(i, None)
         if one_take_up is not None:
             asking = list(map(one_take_up, made.values()))
-            level = at_common_setting([result.balance for result in made.values()], asking)
-            made = {i: replace(made[i], balance=one) for i, one in zip(made, level, strict=True)}
+            at_it = at_common_setting([result.balance for result in made.values()], asking)
+            made = {i: replace(made[i], balance=one) for i, one in zip(made, at_it, strict=True)}
         acted = [i for i in going if i in made and made[i].line.has_tension_coupling]
         again: dict[int, _IterationState] = {}
         for i in acted:
@@ -240,11 +240,11 @@ def _assemble_results(
 
 def _open_loop(variant: Variant, loaded: PreparedLine, contacts: Contacts) -> OpenLoop:
     """Loop with the forces along the belt, to be closed."""
-    level = np.repeat([variant.level.get(strand, 1.0) for strand in STRANDS], loaded.line.count)
+    factors = np.repeat([variant.indentation_factors.get(strand, 1.0) for strand in STRANDS], loaded.line.count)
     along = forces_along_belt(
         loaded.line,
         loaded.fixed,
-        level * contacts.indentation,
+        factors * contacts.indentation,
         roll_drag=variant.roll_drag,
         calibration=variant.conveyor.calculation.calibration,
     )

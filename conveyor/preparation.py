@@ -91,20 +91,22 @@ class Preparation:
         An error where the belt lifts off on a concave curve or runs off its rolls on a horizontal one, a compound is
         unknown at the belt's temperature, or a law of roll drag is out of range at a load.
         """
-        still: dict[int, PreparedLine | NoAnswer] = {}
+        prepared: dict[int, PreparedLine | NoAnswer] = {}
         for i, (variant, on_curves) in asked.items():
             try:
-                still[i] = self._line_without_drag(variant.conveyor, on_curves)
+                prepared[i] = self._line_without_drag(variant.conveyor, on_curves)
             except (NoSolutionError, RangeError, InputError) as error:
-                still[i] = error
-        self._drag([(asked[i][0].conveyor, one) for i, one in still.items() if isinstance(one, PreparedLine)])
-        for i, one in still.items():
+                prepared[i] = error
+        self._calculate_drags(
+            [(asked[i][0].conveyor, one) for i, one in prepared.items() if isinstance(one, PreparedLine)]
+        )
+        for i, one in prepared.items():
             try:
                 yield i, self._in_air(asked[i][0], one) if isinstance(one, PreparedLine) else one
             except (NoSolutionError, RangeError, InputError) as error:
                 yield i, error
 
-    def _drag(self, lines: Iterable[tuple[Conveyor, PreparedLine]]) -> None:
+    def _calculate_drags(self, lines: Iterable[tuple[Conveyor, PreparedLine]]) -> None:
         """Calculate the unknown drags of all rolls in one batch."""
         asked = {
             (one, _drag_air_temperature(given)): (given, one) for given, line in lines for one in line.line.strands.each
@@ -113,23 +115,23 @@ class Preparation:
         new = {key: pair for key, pair in asked.items() if key not in drags}
         drags.update(zip(new, roll_drags_many(list(new.values())), strict=True))
 
-    def _in_air(self, variant: Variant, still: PreparedLine) -> PreparedLine:
+    def _in_air(self, variant: Variant, prepared: PreparedLine) -> PreparedLine:
         """Line with the drags of its rolls and its covers at small strain."""
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
         rubber = cover_series(given, lambda one: self._kept.once(partial(one.series, at), "series", (one,), (at,)))
         gives = given.calculation.support == "belt"
-        acted = self._own if still.has_curve_loads else self._kept
+        acted = self._own if prepared.has_curve_loads else self._kept
         running = acted.once(
-            partial(self._dragged, still, _drag_air_temperature(given)),
+            partial(self._with_roll_drags, prepared, _drag_air_temperature(given)),
             "in air",
-            (still,),
+            (prepared,),
             (_drag_air_temperature(given),),
         )
         rtol = running.line.rtol if self._rtol is None else self._rtol
         works = {
             strand: acted.once(
-                partial(self._worked, CoverLoading(running.line, strand, cover, compounds[strand], at), rtol),
+                partial(self._cover_loading, CoverLoading(running.line, strand, cover, compounds[strand], at), rtol),
                 "work",
                 (running.line, cover.rubber, compounds[strand], *((cover.other[1],) if gives else ())),
                 (strand, at, rtol),
@@ -138,21 +140,21 @@ class Preparation:
         }
         return replace(running, works=works, uses_rolling_tests=_uses_rolling_tests(given.calculation))
 
-    def _dragged(self, still: PreparedLine, air: float | None) -> PreparedLine:
+    def _with_roll_drags(self, prepared: PreparedLine, air: float | None) -> PreparedLine:
         """Line with the drags of its rolls in air of a temperature [K]."""
         drags: list[tuple[float, ...]] = []
-        for strand in still.line.strands.each:
+        for strand in prepared.line.strands.each:
             one = self._kept.drags[strand, air]
             if isinstance(one, InputError):
                 raise one
             drags += one
-        line = replace(still.line, roll_drags=tuple(drags))
-        return replace(still, line=line, frame=still.frame.of(line))
+        line = replace(prepared.line, roll_drags=tuple(drags))
+        return replace(prepared, line=line, frame=prepared.frame.of(line))
 
-    def _worked(self, work: CoverLoading, rtol: float) -> CoverLoading:
+    def _cover_loading(self, work: CoverLoading, rtol: float) -> CoverLoading:
         """First strand that loads its cover identically, with unresolved relaxation terms merged."""
-        felt = self._merge_unresolved_terms(work, rtol)
-        return self._kept.first(felt, "alike", (work.compound,), felt.scene)
+        merged = self._merge_unresolved_terms(work, rtol)
+        return self._kept.first(merged, "alike", (work.compound,), merged.scene)
 
     def _merge_unresolved_terms(self, work: CoverLoading, rtol: float) -> CoverLoading:
         """Merge relaxation terms that the rolls of a strand cannot resolve."""
@@ -197,7 +199,7 @@ class Preparation:
             for strand, cover in kept.items():
                 if loaded[i].works[strand].keeps_strain_of(cover):
                     self._running.setdefault(loaded[i].works[strand], cover)
-        still = {work for one in loaded.values() if not one.has_curve_loads for work in one.works.values()}
+        shared = {work for one in loaded.values() if not one.has_curve_loads for work in one.works.values()}
         works = dict.fromkeys(work for one in loaded.values() for work in one.works.values())
         asked = [work for work in works if work not in self._running]
         known = self._kept.covers
@@ -207,23 +209,24 @@ class Preparation:
         unknown = set(new)
         covers = softened_covers(new, [run for run in runs if unknown.issuperset(run)])
         self._running.update(zip(new, covers, strict=True))
-        known |= {work: self._running[work] for work in asked if work in still}
+        known |= {work: self._running[work] for work in asked if work in shared}
         return {
-            i: _all_or_error({strand: self._at_level(one, strand) for strand in one.works}) for i, one in loaded.items()
+            i: _all_or_error({strand: self._with_test_factor(one, strand) for strand in one.works})
+            for i, one in loaded.items()
         }
 
-    def _at_level(self, loaded: PreparedLine, strand: Strand) -> CoverState | NoAnswer:
+    def _with_test_factor(self, loaded: PreparedLine, strand: Strand) -> CoverState | NoAnswer:
         """Cover of a strand with the test factor of its compound, if any."""
         work = loaded.works[strand]
         cover = self._running[work]
         tested, softened = loaded.uses_rolling_tests, loaded.line.softened
-        anchor = TEST_FACTORS.of(work.compound, softened=softened) if tested else None
-        if not isinstance(cover, CoverState) or isinstance(anchor, NoAnswer):
-            return anchor if isinstance(anchor, NoAnswer) else cover
-        level = None if anchor is None else CoverTestFactor(anchor, work.temperature, work.compound)
-        if cover.level == level:
+        tests = TEST_FACTORS.of(work.compound, softened=softened) if tested else None
+        if not isinstance(cover, CoverState) or isinstance(tests, NoAnswer):
+            return tests if isinstance(tests, NoAnswer) else cover
+        factor = None if tests is None else CoverTestFactor(tests, work.temperature, work.compound)
+        if cover.test_factor == factor:
             return cover
-        return self._kept.once(lambda: replace(cover, level=level), "level", (cover, anchor))
+        return self._kept.once(lambda: replace(cover, test_factor=factor), "test factor", (cover, tests))
 
 
 def conveyor_test_factors(conveyor: Conveyor, compounds: Sequence[RubberCompound]) -> list[TestFactorAnswer]:

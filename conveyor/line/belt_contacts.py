@@ -393,9 +393,9 @@ def _read_belt_contacts(held: Contacts, pulls: Array, families: Sequence[Tension
         middle = float((here @ STRETCH_QUADRATURE[1]).mean())
         curves.append(family.under(middle))
         resistance = np.array([curve.resistance(kind.distinct) for curve in family.curves])
-        level = covers[kind.strand].level
-        if level is not None:
-            resistance = resistance * level.factor(kind.distinct)
+        tested = covers[kind.strand].test_factor
+        if tested is not None:
+            resistance = resistance * tested.factor(kind.distinct)
         weights = (family.weights(here) * STRETCH_QUADRATURE[1][:, None]).sum(axis=1)
         of_roll = np.repeat(weights, np.diff([*kind.starts, kind.which.size]), axis=0)
         drags.append(integrate_along_rolls(kind, (of_roll * resistance.T[kind.which]).sum(axis=1)))

@@ -169,15 +169,15 @@ class Contacts:
 
     def test_factor(self, strand: Strand) -> float:
         """Test factor on a strand's indentation at its mean line load [-]; 1 without tests."""
-        level = self.covers[strand].level
-        return 1.0 if level is None or not self.rolls_on(strand) else float(level.factor(self.losing_load(strand)))
+        tested = self.covers[strand].test_factor
+        return 1.0 if tested is None or not self.rolls_on(strand) else float(tested.factor(self.losing_load(strand)))
 
     def test_factor_band(self, strand: Strand) -> float:
         """Half-width of the 90 % band of the logarithm of the test factor [-]; 0 without tests."""
-        level = self.covers[strand].level
-        if level is None or not self.rolls_on(strand):
+        tested = self.covers[strand].test_factor
+        if tested is None or not self.rolls_on(strand):
             return 0.0
-        return level.anchor.band(self.losing_load(strand), level.temperature)
+        return tested.rolling_tests.band(self.losing_load(strand), tested.temperature)
 
     def test_factor_range(self, strand: Strand, *, own: bool = False) -> tuple[float, float]:
         """90 % range of the factor on a strand's indentation [-]; 1 and 1 without tests.
@@ -196,16 +196,16 @@ class Contacts:
         NoSolutionError
             A replica's contact has no answer.
         """
-        level = self.covers[strand].level
-        if level is None or not self.rolls_on(strand):
+        tested = self.covers[strand].test_factor
+        if tested is None or not self.rolls_on(strand):
             return 1.0, 1.0
-        half = level.anchor.own_half_width if own else self.test_factor_band(strand)
-        if level.anchor.tested_at(level.temperature):
+        half = tested.rolling_tests.own_half_width if own else self.test_factor_band(strand)
+        if tested.rolling_tests.tested_at(tested.temperature):
             return math.exp(-half), math.exp(half)
         heaviest = max((kind for kind in self.line.kinds if kind.strand == strand), key=lambda kind: kind.highest)
         contact, load = roll_contact(self.line, heaviest, self.covers[strand]), self.losing_load(strand)
-        temperatures = level.temperature, level.anchor.nearest(level.temperature)
-        ends = TEST_FACTORS.replica_band(level.compound, contact, load, temperatures)
+        temperatures = tested.temperature, tested.rolling_tests.nearest(tested.temperature)
+        ends = TEST_FACTORS.replica_band(tested.compound, contact, load, temperatures)
         low, high = (math.hypot(half, end) for end in ends)
         return math.exp(-low), math.exp(high)
 
@@ -315,9 +315,9 @@ def _read_contacts(
         parts = np.split(resistance, np.cumsum([distinct.size for distinct in each])[:-1])
         for (i, k), part in zip(members, parts, strict=True):
             kind = lines[i].kinds[k]
-            level = covers[i][kind.strand].level
-            at_level = part if level is None else part * level.factor(kind.distinct)
-            drags[i][k] = integrate_along_rolls(kind, at_level[kind.which])
+            tested = covers[i][kind.strand].test_factor
+            scaled = part if tested is None else part * tested.factor(kind.distinct)
+            drags[i][k] = integrate_along_rolls(kind, scaled[kind.which])
     return [
         Contacts(line, cover, own, tuple(found[k] for k in range(len(own)))) if isinstance(own, tuple) else own
         for line, cover, own, found in zip(lines, covers, curves, drags, strict=True)

@@ -36,20 +36,20 @@ Array = NDArray[np.float64]
 class CoverTestFactor:
     """Test factor of a cover's rubber at its temperature [K]."""
 
-    anchor: RollingTestFactor
+    rolling_tests: RollingTestFactor
     temperature: float
     compound: RubberCompound = field(compare=False, repr=False)
 
     def factor(self, line_load: ArrayLike) -> Array:
         """Measured over calculated indentation at line loads w [N/m]; dimensionless."""
-        return self.anchor.factor(line_load, self.temperature)
+        return self.rolling_tests.factor(line_load, self.temperature)
 
 
 @dataclass(frozen=True, eq=False)
 class CoverState:
     """A cover under rolls: thickness [m], rubber at its temperature, Poisson's ratio.
 
-    `strain` is the working strain; None for that of the master curve. `level` is the test factor on indentation; None
+    `strain` is the working strain; None for that of the master curve. `test_factor` is that on indentation; None
     without one. `other` is the belt's other cover: thickness [m], rubber at small strain. `merged` and `read` are the
     relative errors of indentation by merged relaxation terms and by a strain interpolated between speeds [-].
     """
@@ -59,7 +59,7 @@ class CoverState:
     poisson: float
     other: tuple[float, PronySeries]
     strain: WorkingStrain | None = None
-    level: CoverTestFactor | None = None
+    test_factor: CoverTestFactor | None = None
     merged: float = 0.0
     read: float = 0.0
 

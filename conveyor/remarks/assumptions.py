@@ -135,7 +135,7 @@ def _resistance_method(result: CalculatedConveyor) -> Iterator[str]:
             "The rolling contact of every roll is computed beside, for loads of rolls and covers."
         )
         return
-    tested = any(level is not None for level in (cover.level for cover in result.contacts.covers.values()))
+    tested = any(cover.test_factor is not None for cover in result.contacts.covers.values())
     scaled = ", scaled to the rolling-resistance tests of the compound" if tested else ""
     yield (
         "Indentation: steady rolling contact of a viscoelastic cover on cylinders (Menga, Bottiglione, Carbone, "

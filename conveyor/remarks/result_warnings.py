@@ -124,12 +124,13 @@ def _test_factor_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     """Test factor on the indentation and its band, or that it is untested."""
     contacts, calculation = result.contacts, result.conveyor.calculation
     for strand, compound in compounds_by_strand(result.conveyor).items():
-        level, name = contacts.covers[strand].level, escape_braces(compound.name)
+        tested, name = contacts.covers[strand].test_factor, escape_braces(compound.name)
         if not contacts.rolls_on(strand):
             continue
-        if level is not None:
+        if tested is not None:
             low, high = contacts.test_factor_range(strand)
-            beyond = "" if level.anchor.tested_at(level.temperature) else ", held beyond the tested temperatures"
+            within = tested.rolling_tests.tested_at(tested.temperature)
+            beyond = "" if within else ", held beyond the tested temperatures"
             yield message(
                 f'compound "{name}": indentation of the {strand} rolls {contacts.test_factor(strand):.2f} times '
                 f"the theory ({percent(low - 1.0)} to +{percent(high - 1.0)}), by the test factor of "

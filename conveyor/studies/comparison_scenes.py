@@ -271,7 +271,7 @@ def _indentation_band(
     """
     middle = results[len(results) // 2]
     roll = _highest_loss_roll(middle, strands)
-    tested = [strand for strand in strands if middle.contacts.covers[strand].level is not None]
+    tested = [strand for strand in strands if middle.contacts.covers[strand].test_factor is not None]
     if tested:
         both = [[middle.contacts.test_factor_range(strand, own=own) for strand in tested] for own in (False, True)]
         whole, own = ((min(low for low, _ in each), max(high for _, high in each)) for each in both)

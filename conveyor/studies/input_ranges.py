@@ -415,7 +415,7 @@ def _vary_rubber(result: CalculatedConveyor, notes: list[str]) -> Iterator[_Vari
                 replicas=True,
                 drawn=DrawnInput(f'rubber "{name}"', rubber=(compound, alternatives)),
             )
-        if cover.level is not None:
+        if cover.test_factor is not None:
             yield _vary_test_factor(
                 conveyor, name, {strand: result.contacts.test_factor_band(strand) for strand in strands}
             )
@@ -465,11 +465,11 @@ def _extend_sweeps(compound: RubberCompound, strain: float) -> StrainDependence:
 def _vary_test_factor(conveyor: Conveyor, name: str, bands: Mapping[Strand, float]) -> _Variation:
     """Test factor of a compound at both ends of its band."""
     ends = tuple(
-        Variant(conveyor, level={strand: math.exp(sign * half) for strand, half in bands.items()})
+        Variant(conveyor, indentation_factors={strand: math.exp(sign * half) for strand, half in bands.items()})
         for sign in (-1.0, 1.0)
     )
     low, high = (math.expm1(sign * max(bands.values())) for sign in (-1.0, 1.0))
     return _Variation(
         f'test factor of "{name}"', f"{100.0 * low:+.0f} %", "as tested", f"{100.0 * high:+.0f} %", ends,
-        drawn=DrawnInput(f'test factor of "{name}"', level=bands),
+        drawn=DrawnInput(f'test factor of "{name}"', indentation_factors=bands),
     )  # fmt: skip

@@ -37,14 +37,14 @@ PERCENTILE_CONFIDENCE = 0.9
 class DrawnInput:
     """An input that is drawn: its name and how a draw changes the conveyor or its variant.
 
-    `change` takes a conveyor and the distance from the middle in half widths, 1 at the high end [-]; `drag` and `level`
-    give factors of the variant; `rubber` is a compound and its equally likely replicas.
+    `change` takes a conveyor and the distance from the middle in half widths, 1 at the high end [-]; `drag` and
+    `indentation_factors` give factors of the variant; `rubber` is a compound and its equally likely replicas.
     """
 
     name: str
     change: Callable[[Conveyor, float], Conveyor] | None = None
     drag: float = 0.0
-    level: Mapping[Strand, float] | None = None
+    indentation_factors: Mapping[Strand, float] | None = None
     rubber: tuple[RubberCompound, tuple[RubberCompound, ...]] | None = None
 
 
@@ -188,7 +188,7 @@ def _correlation_root(names: Sequence[str], ranges: Uncertainty) -> Array:
 def _draw_variant(conveyor: Conveyor, inputs: Sequence[DrawnInput], row: Sequence[float], end: float) -> Variant:
     """Variant of one draw."""
     made, drag = conveyor, 1.0
-    level: dict[Strand, float] = {}
+    factors: dict[Strand, float] = {}
     for one, normal in zip(inputs, row, strict=True):
         away = normal / end
         if one.change is not None:
@@ -196,9 +196,9 @@ def _draw_variant(conveyor: Conveyor, inputs: Sequence[DrawnInput], row: Sequenc
         if one.rubber is not None:
             compound, replicas = one.rubber
             made = with_alternative(made, compound, replicas[int(float(ndtr(normal)) * len(replicas))])
-        if one.level is not None:
-            level |= {strand: math.exp(away * half) for strand, half in one.level.items()}
+        if one.indentation_factors is not None:
+            factors |= {strand: math.exp(away * half) for strand, half in one.indentation_factors.items()}
         drag += one.drag * away
     if drag <= 0.0:
         raise InputError("roll drag: a draw of it is not above 0; its range is too wide to be normal")
-    return Variant(made, level=level, roll_drag=drag)
+    return Variant(made, indentation_factors=factors, roll_drag=drag)

@@ -142,7 +142,7 @@ def test_the_level_is_in_the_uncertainty(line):
 def test_without_the_confined_support_the_theory_stands_alone(line):
     free = line.replace(calculation=line.calculation.replace(support="half-space"))
     result = calculate(free)
-    assert all(cover.level is None for cover in result.contacts.covers.values())
+    assert all(cover.test_factor is None for cover in result.contacts.covers.values())
     assert any("the support is not confined" in warning for warning in told(result))
 
 
@@ -199,14 +199,14 @@ def test_beyond_the_tests_the_replicas_carry_the_level(line):
     )
     rubber = shelf.compound("standard-cover")
     middle = calculate(with_compound(cold, rubber, "both"))
-    level = middle.contacts.covers["carry"].level
+    tested = middle.contacts.covers["carry"].test_factor
     factors = []
     for other in rubber.alternatives():
         carried = indentation(with_compound(cold, other, "both"))
         factors.append(carried / middle.balance.forces.indentation)
     low, high = np.log(np.quantile(factors, (0.05, 0.95), method="weibull"))
     half = middle.contacts.test_factor_band("carry")
-    own = level.anchor.own_half_width
+    own = tested.rolling_tests.own_half_width
     # one roll for all, and its own roll for that of the tests: a tenth of the band
     for band, inner in (
         (middle.contacts.test_factor_range("carry"), half),

@@ -91,7 +91,7 @@ def test_a_stretch_feels_the_mean_over_its_tensions(found):
     curve = contacts.rolls[i][kind.rolls[place][1]].curve
     loads, across = kind.rolls[place], slice(kind.starts[place], kind.starts[place] + 8)
     each = [curve.among.under(float(tension)).resistance(kind.line_loads[across]) for tension in along]
-    level = contacts.covers["carry"].level.factor(kind.line_loads[across])
+    level = contacts.covers["carry"].test_factor.factor(kind.line_loads[across])
     expected = 0.5 * weights @ np.array(each) @ (level * kind.weights[across])
     assert contacts.rolls[i][loads[1]].resistance == pytest.approx(float(expected), rel=1e-9)
 

@@ -147,7 +147,7 @@ def test_a_wing_integrated_by_single_solves(result):
     y = 0.5 * length * (nodes + 1.0)
     w = 2.0 * roll.load.bulk_force / length * (1.0 - y / length) + roll.load.belt_force / length
     assert 0.5 * length * weights @ w == pytest.approx(roll.load.force, rel=1e-12)
-    level = result.contacts.covers["carry"].level
+    level = result.contacts.covers["carry"].test_factor
     single = [float(level.factor(load) * indentation_resistance(contact, float(load)).resistance) for load in w]
     # a kink where the tests' loads end: 1e-4 of quadratures with 8 and 12 points
     assert roll.resistance == pytest.approx(0.5 * length * weights @ np.array(single), rel=1e-4)

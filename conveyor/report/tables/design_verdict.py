@@ -182,8 +182,8 @@ def _rubber_quality(a: CalculatedConveyor) -> Iterator[GoverningRow]:
                 quality.append(f"fit rms error E' {share.said(fit.storage_rms, 4)}, E'' {share.said(fit.loss_rms, 4)}")
         else:
             quality.append("constructed spectrum, not for design")
-        level = any(a.contacts.covers[strand].level is not None for strand in a.contacts.covers if strand in strands)
-        tested = "test factor of rolling-resistance tests" if level else "no rolling-resistance tests"
+        factors = [cover.test_factor for strand, cover in a.contacts.covers.items() if strand in strands]
+        tested = "test factor of rolling-resistance tests" if any(factors) else "no rolling-resistance tests"
         yield GoverningRow(f"rubber {name}", compound.kind, "; ".join([" and ".join(strands), *quality, tested]))
 
 

@@ -85,12 +85,12 @@ def indentation_table(a: CalculatedConveyor) -> Table:
             for curve in roll.curve.solved:
                 pull = curve.contact.pull
                 held = "" if pull is None else f", {display_unit('line force', a.conveyor.report.units).said(pull, 4)}"
-                seen.setdefault(curve, (f"{r.stretch.strand}, {size}, {apart}{held}", r.cover.level))
+                seen.setdefault(curve, (f"{r.stretch.strand}, {size}, {apart}{held}", r.cover.test_factor))
     rows: list[tuple[Any, ...]] = []
-    for curve, (label, level) in seen.items():
+    for curve, (label, tested) in seen.items():
         loads = np.geomspace(curve.lowest, curve.highest, CURVE_POINTS)
         solved = curve.at(loads)
-        resistance = solved.resistance if level is None else level.factor(loads) * solved.resistance
+        resistance = solved.resistance if tested is None else tested.factor(loads) * solved.resistance
         columns = (loads, resistance, solved.half_width, solved.peak_pressure, solved.peak_error)
         rows += [(label, *point) for point in zip(*(column.tolist() for column in columns), strict=True)]
     declared = (
@@ -158,7 +158,7 @@ def _taken_facts(a: CalculatedConveyor, compound: RubberCompound) -> Iterator[tu
 
 def _test_factor_end(contacts: Contacts, strand: Strand, sign: float) -> float | None:
     """Lower or upper end of a strand's test factor; None without tests."""
-    if contacts.covers[strand].level is None:
+    if contacts.covers[strand].test_factor is None:
         return None
     return contacts.test_factor(strand) * contacts.test_factor_range(strand)[sign > 0.0]
 
