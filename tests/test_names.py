@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import collections
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -83,3 +84,30 @@ def test_docstrings_of_functions_do_not_begin_with_riddles():
         and (line := (ast.get_docstring(node) or "").split("\n")[0])
         and riddle.match(line)
     ] == []
+
+
+def described_arguments() -> Iterator[tuple[str, str, str, ast.arguments]]:
+    """File and function, names, kind as its docstring describes them, and its arguments, of every such entry."""
+    for path in FILES:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                continue
+            _, _, described = (ast.get_docstring(node) or "").partition("Parameters\n----------\n")
+            for names, kind in re.findall(r"^(\w[\w, ]*) : (.*)$", described.split("\n\n")[0], re.MULTILINE):
+                for name in names.split(", "):
+                    yield f"{path.relative_to(ROOT)}: {node.name}", name, kind, node.args
+
+
+def test_docstrings_describe_arguments_that_exist_and_optional_ones_have_defaults():
+    gone, required = [], []
+    for where, name, kind, args in described_arguments():
+        by_place = [*args.posonlyargs, *args.args]
+        rest = [one for one in (args.vararg, args.kwarg) if one is not None]
+        defaults = [None] * (len(by_place) - len(args.defaults)) + [*args.defaults] + [*args.kw_defaults]
+        found = dict(zip((one.arg for one in (*by_place, *args.kwonlyargs)), defaults, strict=True))
+        if name not in found and name not in {one.arg for one in rest}:
+            gone.append((where, name))
+        elif "optional" in kind and found.get(name) is None:
+            required.append((where, name))
+    assert gone == []
+    assert required == []

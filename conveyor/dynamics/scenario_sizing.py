@@ -43,7 +43,7 @@ def size_scenario(
         The spec.
     scenario : Scenario
         A start or a stop.
-    objectives : {"ramp", "brake", "delay", "take-up"}
+    sought : {"ramp", "brake", "delay", "take-up"}
         Time of the ramps of all drives; total brake force, shared as given, else like the drive force; time from one
         drive to the next, with the lowest peak; take-up tension, and its weight. A stop must come to rest within the
         duration of its scenario.

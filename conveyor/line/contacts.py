@@ -241,9 +241,9 @@ def solve_contacts(
         One for each case; cases that differ in rubber and temperature only share their line.
     covers : sequence of mapping
         Cover under each strand, for each case.
-    rtol : float, optional
+    rtol : float or None
         Relative tolerance of the contacts [-]; that of each line without it.
-    known : dict, optional
+    known : dict
         Curves of earlier calls; new ones are added.
 
     Returns

@@ -296,9 +296,9 @@ def solve_equilibria(
     ----------
     loops : LoopBatch
         Loops of one plan under their forces.
-    given : ndarray, shape (b,), optional
+    given : ndarray, shape (b,), or None
         Settings of the take-ups [N]; by default the least that serves every state.
-    serving : ndarray of bool, shape (b,), optional
+    serving : ndarray of bool, shape (b,), or None
         Loops that one setting of all take-ups must serve; not with `given`.
 
     Returns

@@ -80,7 +80,7 @@ def conveyor_costs(parts: Parts, prices: Mapping[str, float], *, seconds: float,
         `Prices.amounts`.
     seconds : float
         Running time in a year [s].
-    energy : float or ndarray, optional
+    energy : float, ndarray or None
         Cost of a year's energy [currency/a].
 
     Returns

@@ -129,11 +129,11 @@ def calculate_draws(
         Draws, seed and correlations.
     end : float
         Standard deviations from the middle to an end of a range [-].
-    take_up : TakeUpSetting, optional
+    take_up : TakeUpSetting or None
         Setting and side in every draw [N]; by default the least of each.
-    rtol : float, optional
+    rtol : float or None
         Relative tolerance of the contacts [-]; by default that of the spec.
-    progress : callable, optional
+    progress : callable or None
         Called with the items done and their total.
 
     Raises

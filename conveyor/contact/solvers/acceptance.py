@@ -65,7 +65,7 @@ def order_errors(contact: Contact, lower: Contact, exponent: Array | None) -> Or
         Contacts of the full order, batch of b.
     lower : Contact
         Those of half and of three quarters of the order, shapes (2, b).
-    exponent : ndarray, shape (b,), optional
+    exponent : ndarray, shape (b,), or None
         β.
 
     Returns
