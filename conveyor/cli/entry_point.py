@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import io
 import logging
 import os
 import re
@@ -74,9 +75,15 @@ def main() -> None:
 def _set_up_streams() -> None:
     """End silently where the reader of a pipe goes away; escape characters that a terminal cannot show.
 
-    Streams that were closed at the start are opened on the null device, so that no other file takes their number.
+    Streams that were closed at the start are opened on the null device, so that no other file takes their number. An
+    unbuffered stdout (PYTHONUNBUFFERED) gets a buffer: without one Python drops, without a word, what a file that may
+    not grow did not take.
     """
     sys.stdout = sys.stdout or _null_stream(os.O_RDONLY)
+    if isinstance(getattr(sys.stdout, "buffer", None), io.RawIOBase):
+        sys.stdout = open(  # noqa: SIM115 kept open as streams are
+            sys.stdout.fileno(), "w", buffering=1, encoding=sys.stdout.encoding, closefd=False
+        )
     sys.stderr = sys.stderr or _null_stream(os.O_WRONLY)
     if hasattr(signal, "SIGPIPE"):
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)
@@ -103,6 +110,10 @@ def _show_warning(
 
 
 def _exit_with(message: str, code: int) -> NoReturn:
+    try:
+        sys.stdout.flush()  # what was printed before the message
+    except OSError:
+        _discard_output()
     print(escape_controls(message), file=sys.stderr)
     sys.exit(code)
 

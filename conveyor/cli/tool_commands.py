@@ -21,7 +21,6 @@ from conveyor.cli.application import (
 )
 from conveyor.cli.output_files import Outputs
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.files.atomic_write import name_write_errors
 from conveyor.files.output_marks import TO_FILL_IN
 
 
@@ -98,8 +97,7 @@ def template(
     if spec is not None and units is not None:
         raise InputError("--units: with --from the spec says the units (report.units); leave one of the two out")
     line = None if spec is None else conveyor.load(spec, shelves=shelf or ())
-    with name_write_errors(output):  # openpyxl writes temporary files
-        content = made(line, shelves=shelf or (), units="SI" if units is None else units.value)
+    content = made(line, shelves=shelf or (), units="SI" if units is None else units.value)
     to.add("template", output, {output: content})
     lines = to.save()
     if not quiet:

@@ -18,7 +18,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.errors import InputError
 from conveyor.files import output_marks
-from conveyor.files.atomic_write import check_writable, name_write_errors, save_files
+from conveyor.files.atomic_write import check_writable, save_files
 from conveyor.files.workbook_bytes import workbook_bytes
 from conveyor.report import sheets, summary_sheet
 from conveyor.report.cells import cell_text
@@ -124,8 +124,7 @@ def workbook_files(contents: Contents, path: Path) -> dict[Path, bytes]:
     with _pause_collector():
         book = build_workbook(contents, path.stem, live)
         book.properties.modified = datetime.now(UTC).replace(tzinfo=None)
-        with name_write_errors(path):
-            content = workbook_bytes(book)
+        content = workbook_bytes(book)
     long = [part for part in contents.tables if len(part.rows) > MOST_ROWS]
     beside = {path.with_name(long_table_file(path.stem, part)): csv_bytes(part.frame(contents.system)) for part in long}
     values = {(book.sheetnames.index(sheet) + 1, cell): value for (sheet, cell), value in live.items()}

@@ -14,7 +14,7 @@ from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.arguments.argument_types import check_arguments
-from conveyor.files.atomic_write import check_writable, name_write_errors, save_files
+from conveyor.files.atomic_write import check_writable, save_files
 from conveyor.files.output_marks import program_version
 from conveyor.files.workbook_bytes import workbook_bytes
 from conveyor.forms.form_fields import FormField
@@ -52,8 +52,7 @@ def write_maker_list_form(path: str | Path) -> Path:
     """
     where = Path(path)
     check_writable(where)
-    with name_write_errors(where):
-        save_files({where: maker_list_form()})
+    save_files({where: maker_list_form()})
     return where
 
 

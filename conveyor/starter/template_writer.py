@@ -10,7 +10,7 @@ from conveyor import shelf, spec
 from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import InputError
 from conveyor.files import output_marks
-from conveyor.files.atomic_write import check_writable, name_write_errors, save_files
+from conveyor.files.atomic_write import check_writable, save_files
 from conveyor.files.workbook_bytes import workbook_bytes
 from conveyor.forms.form_reader import read_form
 from conveyor.models import Conveyor
@@ -69,9 +69,7 @@ def write_template(
     if where.suffix.lower() != ".xlsx":
         raise InputError(f'{where}: a workbook\'s name ends in .xlsx, got "{where.suffix}"')
     check_writable(where)
-    with name_write_errors(where):  # openpyxl writes temporary files
-        made = template_bytes(conveyor, shelves=shelves, units=units)
-    save_files({where: made})
+    save_files({where: template_bytes(conveyor, shelves=shelves, units=units)})
     return where
 
 

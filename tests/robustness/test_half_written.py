@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import os
+import signal
+import subprocess
+import sys
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -59,7 +64,7 @@ OUTPUTS: dict[str, Callable[[Path], object]] = {
     "starter.yaml": lambda path: save_files({path: starter.starter_text("overland").encode()}),
 }
 CHEAP = ["scenes.csv", "figure.svg", "compound.yaml", "starter.yaml"]
-"""Those that take no second, and no temporary files elsewhere."""
+"""Those that take no second."""
 
 
 @contextmanager
@@ -86,7 +91,6 @@ def test_a_full_disk_leaves_the_folder_as_it_was(name: str, tmp_path: Path, monk
     assert files(tmp_path) == before
 
 
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # of openpyxl's own generators
 @pytest.mark.parametrize("older", [True, False])
 @pytest.mark.parametrize("name", [*CHEAP, "report.xlsx", "template.xlsx"])
 def test_a_disk_that_is_really_full_leaves_the_folder_as_it_was(name: str, older: bool, tmp_path: Path) -> None:
@@ -122,12 +126,60 @@ def test_ctrl_c_while_it_writes_leaves_the_folder_as_it_was(
     assert files(tmp_path) == before
 
 
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # of openpyxl's own generators
 @pytest.mark.parametrize("command", [("template", "t.xlsx"), ("power", "spec.yaml", "-o", "t.xlsx")])
-def test_a_command_names_the_file_whose_temporary_ones_found_no_room(command: tuple[str, ...], tmp_path: Path) -> None:
+def test_a_command_names_the_file_that_found_no_room(command: tuple[str, ...], tmp_path: Path) -> None:
     (tmp_path / "spec.yaml").write_text(SPEC, encoding="utf-8")
     before = files(tmp_path)
     with _full_disk():
         done = command_line.run(*command, cwd=tmp_path)
     assert (done.returncode, done.stderr) == (2, "t.xlsx: cannot be written (File too large)\n")
     assert files(tmp_path) == before
+
+
+def _start(*arguments: str, unbuffered: str, folder: Path, **how: Any) -> subprocess.Popen[bytes]:
+    """Start the command line as a shell does, its standard output with or without a buffer."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "conveyor", *arguments],
+        cwd=folder,
+        env={**os.environ, "PYTHONUNBUFFERED": unbuffered, "PYTHONPATH": str(Path(conveyor.__file__).parents[1])},
+        stderr=subprocess.PIPE,
+        **how,
+    )
+
+
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize("command", [("schema",), ("power", "spec.yaml", "--json"), ("power", "spec.yaml")])
+def test_output_that_its_file_does_not_take_is_an_error(
+    command: tuple[str, ...], unbuffered: str, tmp_path: Path
+) -> None:
+    """Without a buffer Python's own writer leaves out, in silence, what did not fit: nothing said, exit code 0."""
+    (tmp_path / "spec.yaml").write_text(SPEC, encoding="utf-8")
+    with (tmp_path / "out").open("wb") as out, _full_disk():
+        started = _start(*command, unbuffered=unbuffered, folder=tmp_path, stdout=out)
+    _, said = started.communicate()
+    assert (started.returncode, said) == (2, b"conveyor: output: File too large\n")
+    assert (tmp_path / "out").stat().st_size == _LEAST
+
+
+def test_a_workbook_that_finds_no_room_is_refused_in_one_line(tmp_path: Path) -> None:
+    """To the end of the interpreter, which complains of what was left open."""
+    (tmp_path / "spec.yaml").write_text(SPEC, encoding="utf-8")
+    with _full_disk():
+        started = _start(
+            *("power", "spec.yaml", "-o", "t.xlsx"), unbuffered="", folder=tmp_path, stdout=subprocess.PIPE
+        )
+    shown, said = started.communicate()
+    assert (started.returncode, shown, said) == (2, b"", b"t.xlsx: cannot be written (File too large)\n")
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGPIPE"), reason="signals of POSIX")
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_reader_that_goes_away_ends_the_command_in_silence(unbuffered: str, tmp_path: Path) -> None:
+    """As `conveyor schema | head -1`: ended by the signal that shells expect."""
+    started = _start("schema", unbuffered=unbuffered, folder=tmp_path, stdout=subprocess.PIPE)
+    assert started.stdout is not None
+    assert started.stdout.readline() == b"{\n"
+    started.stdout.close()
+    assert started.stderr is not None
+    assert (started.stderr.read(), started.wait()) == (b"", -signal.SIGPIPE)
+    started.stderr.close()
