@@ -158,12 +158,15 @@ class SheetReader:
         wanted = {".".join(row.path): row.path for row in form.rows if isinstance(row.part, FormField)}
         wanted[NAME_KEY] = (NAME_KEY,)
         self._refuse_merged(grid, top, {columns[name] for name in (KEY, VALUE, UNIT)})
+        last = max(columns[name] for name in (KEY, VALUE, UNIT))
+        while last + 1 in columns.values():
+            last += 1
+        self._refuse_strays(grid, top, set(columns.values()), last, "form")
         first: dict[str, int] = {}
         for row in (row for row in grid.rows() if row > top):
             key, place = grid.text(row, columns[KEY]), cell_address(grid.name, row, columns[VALUE])
             value, unit = grid.cells.get((row, columns[VALUE])), grid.cells.get((row, columns[UNIT]))
             if not key:
-                self._refuse_strays(grid, row, set(columns.values()), "form")
                 if value is not None:
                     self.refuse(place, f'a value in a row without a field (column "{KEY}"); remove it')
             elif key not in wanted:
@@ -186,6 +189,7 @@ class SheetReader:
             if key not in allowed:
                 self._unknown(cell_address(grid.name, top, column), key, allowed)
         self._refuse_merged(grid, top, set(columns.values()))
+        self._refuse_strays(grid, top, set(columns.values()), max(columns.values()), "list")
         items = []
         for row in (row for row in grid.rows() if row > top):
             entries = {
@@ -197,8 +201,6 @@ class SheetReader:
                 number = self._whole(grid, row, columns[NUMBER])
                 parent = self._whole(grid, row, columns[PARENT]) if PARENT in columns else None
                 items.append(ListItem(cell_address(grid.name, row, columns[NUMBER]), number, parent, entries))
-            else:
-                self._refuse_strays(grid, row, set(columns.values()), "list")
         return items
 
     def _header(self, grid: Sheet, needed: tuple[str, ...]) -> tuple[int, dict[str, int]]:
@@ -234,12 +236,13 @@ class SheetReader:
                 end = cell_address(grid.name, last_row, last).rpartition("!")[2]
                 self.refuse(f"{begin}:{end}", "cells are merged; unmerge them, one cell holds one value")
 
-    def _refuse_strays(self, grid: Sheet, row: int, columns: set[int], of: str) -> None:
-        """Refuse values outside the columns of a form or list in a row without a field or item."""
-        for (r, column), cell in grid.cells.items():
-            if r == row and column not in columns and not cell_problem(cell):
+    def _refuse_strays(self, grid: Sheet, top: int, columns: set[int], last: int, of: str) -> None:
+        """Refuse cells that nobody reads: right of the last column, or below the header in a column without a name."""
+        remark = ', or name its column beside "Key", such as "Remark"' if of == "form" else ""
+        for row, column in sorted(grid.cells):
+            if column > last or (row > top and column not in columns):
                 place = cell_address(grid.name, row, column)
-                self.refuse(place, f"outside the columns of the {of}; remove it or move it to another sheet")
+                self.refuse(place, f"outside the columns of the {of}; remove it, move it to another sheet{remark}")
 
     def _whole(self, grid: Sheet, row: int, column: int) -> int | None:
         cell = grid.cells.get((row, column))

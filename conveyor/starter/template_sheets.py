@@ -148,6 +148,7 @@ HOW_TO: Final = (
     "Write numbers as your spreadsheet program shows numbers; cells may refer to other sheets of your own, "
     "which are ignored.",
     'Rows and sheets are found by the names in the column "Key" and by the sheets\' names: leave those as they are.',
+    'Remarks of your own go beside a form, in a column with a name beside "Key", or on a sheet of your own.',
     "Calculate with: conveyor power input.xlsx -o report.xlsx",
 )
 

@@ -25,13 +25,23 @@ def test_rubber_that_stiffens_beyond_any_number_is_refused(instantaneous):
         CreepSpectrum(instantaneous, [1.0], [1.0])
 
 
-def test_strips_that_would_reach_beyond_the_roll_are_left_to_the_grid():
+@pytest.mark.parametrize(
+    ("instantaneous", "last"), [(1.0 - 0.06521329 - 0.84350269 - 0.08245453, 0.08245453), (0.008829480476255203, None)]
+)
+def test_strips_that_would_reach_beyond_the_roll_are_left_to_the_grid(instantaneous, last):
     """A tiny roll pressed far into a thin bonded layer of three times: too sharp for any order, and said so."""
-    weights = [0.06521329, 0.84350269, 0.0824545395238]
-    creep = CreepSpectrum(1.0 - sum(weights), weights, [0.00029006, 0.00104923, 0.16154])
+    weights = [0.06521329, 0.84350269]
+    weights.append(1.0 - instantaneous - sum(weights) if last is None else last)
+    creep = CreepSpectrum(instantaneous, weights, [0.00029006, 0.00104923, 0.16154])
     found = solve(
         ContactProblem("confined", 0.0017710503790067855, 1.727622276596642, creep, 0.09193471275396253),
         throw=False,
     )
     assert found.status.name != "OK"
     assert "far outside small strain" in found.message
+
+
+def test_weights_as_printed_with_eight_digits_are_refused_by_their_sum():
+    """Those of the roll above: 1e-8 is no rounding of numbers, and which of them is wrong is not ours to say."""
+    with pytest.raises(InputError, match=r"instantaneous \+ sum\(weights\) = 0\.99999999\d*: must be 1"):
+        CreepSpectrum(0.008829480476255203, [0.06521329, 0.84350269, 0.08245453], [0.00029006, 0.00104923, 0.16154])

@@ -308,6 +308,21 @@ SHEETS: dict[str, tuple[Callable[[Workbook], object], str]] = {
         lambda b: belt(b).__setitem__("XFD1048576", 1),
         r"Belt!XFD1048576 outside the columns of the form; remove it",
     ),
+    "far above a form": (
+        lambda b: belt(b).__setitem__("XFD3", 1),
+        r"Belt!XFD3 outside the columns of the form; remove it, move it to another sheet, or name its column",
+    ),
+    "far beside a header": (lambda b: belt(b).__setitem__("XFD4", "Remark"), r"Belt!XFD4 outside the columns of"),
+    "far beside a field": (lambda b: belt(b).__setitem__("XFD5", "#REF!"), r"Belt!XFD5 outside the columns of"),
+    "near a field": (
+        lambda b: belt(b).__setitem__("H5", "as quoted"),
+        r"""Belt!H5 outside the columns of the form; .* or name its column beside "Key", such as "Remark\"""",
+    ),
+    "far above a list": (
+        lambda b: b["Sections"].__setitem__("XFD3", 1),
+        r"Sections!XFD3 outside the columns of the list; remove it, move it to another sheet$",
+    ),
+    "far beside an item": (lambda b: b["Sections"].__setitem__("XFD7", 1), r"Sections!XFD7 outside the columns of"),
     "merged value": (lambda b: belt(b).merge_cells("B5:C5"), r"Belt!B5:C5 cells are merged; unmerge them"),
     "merged items": (
         lambda b: b["Sections"].merge_cells("B7:B9"),
@@ -342,6 +357,17 @@ def test_other_sheets_moved_rows_and_optional_sheets_are_no_error(path: Path) ->
 
     change(spoil)(path)
     assert load(path).as_data() == {key: value for key, value in before.items() if key != "operation"}
+
+
+def test_remarks_in_columns_with_a_name_are_no_values(path: Path) -> None:
+    before = load(path).as_data()
+
+    def remark(book: Workbook) -> None:
+        belt(book)["H4"], belt(book)["I4"] = "Remark", "Checked on"
+        belt(book)["H5"], belt(book)["I5"], belt(book)["H40"] = "as quoted", datetime(2026, 3, 1), 5
+
+    change(remark)(path)
+    assert load(path).as_data() == before
 
 
 def test_an_absent_optional_column_is_empty_and_a_needed_one_is_missing(path: Path) -> None:
