@@ -48,6 +48,24 @@ def test_the_loop_closes_and_power_is_force_times_speed(name):
     assert found.balance.tensions.slack == pytest.approx(min(points[0].tension, points[-1].tension), rel=1e-12)
 
 
+@pytest.mark.parametrize("name", ["overland", "downhill"])
+def test_the_sag_asks_for_tension_between_the_sets_and_not_at_pulleys(name):
+    """m' g a / (8 h), with the bulk on the carry side: 12.5 m' g a where the belt sags by 1 % of the span."""
+    found = calculate(load(SPECS / f"{name}.yaml"))
+    conveyor, points = found.conveyor, found.balance.points
+    pulleys = [point for point in points if point.place.endswith(("arriving", "leaving"))]
+    assert len(pulleys) >= 2
+    assert {point.least_for_sag for point in pulleys} == {0.0}
+    last = conveyor.route.sections[-1]
+    bulk = si(conveyor.material.flow) / si(conveyor.belt.speed)
+    for strand, own, more in (("carry", "carry", bulk), ("return", "return_", 0.0)):
+        spacing = si(getattr(last, f"{strand}_spacing") or getattr(conveyor.idlers, own).spacing)
+        belt = found.line.stretches[0].belt_mass
+        asked = (belt + more) * 9.81 * spacing / (8.0 * si(getattr(conveyor.idlers, own).sag))
+        (there,) = (point for point in points if point.place == f"{last.name}, {strand}, end")
+        assert there.least_for_sag == pytest.approx(asked, rel=1e-9)
+
+
 def test_lift_is_that_of_the_bulk_alone(line, result):
     bulk = si(line.material.flow) / si(line.belt.speed)
     expected = bulk * 9.81 * line.route.rise

@@ -186,6 +186,19 @@ def test_estimates_at_constant_speed_are_the_extremes_of_every_loading(seed):
     assert np.all(low[ends] >= sag - np.min(every, axis=0)[ends] - scale)
 
 
+@pytest.mark.parametrize("seed", range(30, 34))
+def test_at_constant_speed_the_belt_comes_back_with_the_tension_it_left_with(seed):
+    """What resists round the loop the drives give, by brakes and with least friction too."""
+    rng = np.random.default_rng(seed)
+    found = added(route(rng, 5))
+    for loading in rng.random((4, 5)) < 0.5:
+        for state in (one for one in found._states if one.over == 1.0):
+            acceleration, forces = found._moved(state, loading)
+            offsets = found._offsets(state, loading, acceleration, forces)
+            assert acceleration == pytest.approx(0.0, abs=CLOSED)
+            assert offsets[0] == pytest.approx(offsets[-1], abs=CLOSED * np.abs(offsets).max())
+
+
 def test_signs_by_hand():
     # a level, b up, c steeply down: bulk on c drives, on the others it drags
     sections = [{"name": "a", "length": "300 m"}, {"name": "b", "length": "400 m", "lift": "20 m"},

@@ -46,6 +46,25 @@ def test_the_estimated_belt_bears_what_grip_and_force_ask(task):
     assert np.all(found.design_force > 0.0)
 
 
+def test_estimated_indentation_goes_with_rolls_and_spans_as_that_of_a_roll(task):
+    """(h/D²)^(1/3) p^(4/3) of each set: a belt on larger rolls loses (D1/D2)^(2/3), on wider spans (a2/a1)^(1/3)."""
+    every = Candidates.of(task)
+    found = screen_candidates(task, every, first_calibration(1))
+    diameter = every.runs(lambda on: on.roll.diameter)
+    known = list(dict.fromkeys((on.trough, on.speed) for on in every.running))
+    running = every.runs(lambda on: known.index((on.trough, on.speed)))
+    spans = np.array([np.array(apart)[every.numbers[:, 1 + k]] for k, apart in enumerate(task.spacings)])
+    alike = np.column_stack([running, every.numbers[:, 3:], found.carcass])
+    seen = 0
+    for one in np.unique(alike, axis=0):
+        rows = np.flatnonzero((alike == one).all(axis=1))
+        seen += np.unique(diameter[rows]).size > 1 and np.unique(spans[1, rows]).size > 1
+        for k in range(2):
+            law = found.levelled[rows, k] * diameter[rows] ** (2.0 / 3.0) / np.cbrt(spans[k, rows])
+            assert law == pytest.approx(law[0], rel=1e-9)
+    assert seen
+
+
 def held(force: float, *, rolls_back: bool = True) -> SimpleNamespace:
     """A load whose belt is held by a force [N]."""
     return SimpleNamespace(motions=SimpleNamespace(rolls_back=rolls_back, brake_to_hold=force))
