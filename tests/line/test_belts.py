@@ -10,6 +10,7 @@ import pytest
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.indentation import indentation_resistance
+from conveyor.line import belt_contacts
 from conveyor.line.belt_contacts import STRETCH_QUADRATURE, BeltContacts
 from conveyor.loop.tension_coupling import pull_per_width
 from conveyor.models import Conveyor, RubberCompound
@@ -171,3 +172,9 @@ def test_a_slack_belt_has_no_answer(found):
     slack = replace(steady, starts=steady.starts - steady.largest)
     with pytest.raises(NoSolutionError, match="no tension is left to hold the belt in section"):
         pull_per_width(found.line, slack, STRETCH_QUADRATURE[0])
+
+
+def test_curves_of_two_lines_reach_over_the_loads_and_tensions_of_both():
+    light, heavy = ((100.0, 200.0), (20e3, 70e3)), ((150.0, 900.0), (50e3, 60e3))
+    both = ((100.0, 900.0), (20e3, 70e3))
+    assert belt_contacts._joint_range(light, heavy) == belt_contacts._joint_range(heavy, light) == both

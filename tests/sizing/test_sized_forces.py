@@ -77,6 +77,21 @@ def test_a_backstop_holds_over_the_radius_of_its_pulley(force, torque):
     assert part_sizing._backstop_torque(0.48, [held(force, rolls_back=False)]) == 0.0
 
 
+def test_the_take_up_gives_the_slackest_load_what_it_lacks():
+    """20 kN of tension and 4.2 kN too little: 24.5 kN in steps of 500 N; who asks for less has nothing to say."""
+
+    def load(setting: float, needed: float, *smallest: float) -> SimpleNamespace:
+        settled = SimpleNamespace(setting=setting, needed=needed)
+        states = [SimpleNamespace(smallest=one) for one in smallest]
+        return SimpleNamespace(balance=SimpleNamespace(settled=settled), motion_states=states)
+
+    slack, taut = load(20e3, 18e3, 3e3, -4.2e3), load(12e3, 12e3, 1e3)
+    for loads in ([slack, taut], [taut, slack]):
+        assert part_sizing._take_up_setting(0.0, loads) == pytest.approx(24.5e3)
+        assert part_sizing._take_up_setting(26e3, loads) == pytest.approx(26e3)  # what is there is enough
+    assert part_sizing._take_up_setting(0.0, [taut]) == 0.0
+
+
 def test_motors_break_the_belt_away_with_their_rated_power(monkeypatch):
     """50 kN × 2.5 m/s / 0.94 by two drives is 66.49 kW each, for which the reserve of 1.1 need not be added again."""
     monkeypatch.setattr(part_sizing, "_drive_powers", lambda _: [20e3, 20e3])
