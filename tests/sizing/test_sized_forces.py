@@ -10,7 +10,7 @@ import pytest
 
 from conveyor import shelf
 from conveyor.models.sizing import SizingDuty
-from conveyor.sizing import part_sizing
+from conveyor.sizing import design_search, part_sizing
 from conveyor.sizing.screen import Candidates, first_calibration, screen_candidates
 from conveyor.sizing.sizing_task import SizingTask
 
@@ -105,3 +105,18 @@ def test_motors_break_the_belt_away_with_their_rated_power(monkeypatch):
     rules = SimpleNamespace(rules=SimpleNamespace(motor_reserve=1.1))
     assert part_sizing._required_power(rules, [load(40e3)]) == pytest.approx(66.489e3 / 1.1, rel=1e-5)
     assert part_sizing._required_power(rules, [load(60e3)]) == pytest.approx(20e3)  # the start itself breaks it away
+
+
+@pytest.mark.parametrize(("best", "tried"), [(1, 3), (3, 3), (5, 5), (9, 6)])
+def test_three_designs_at_least_are_tried_with_graduated_spacings(monkeypatch, best, tried):
+    """The best one must not depend on how many are wanted: a list of one looks at three, a longer one at all of it."""
+    seen, lacking = [], []
+    monkeypatch.setattr(design_search, "_graduated_designs", lambda _, designs: seen.extend(designs) or [])
+    monkeypatch.setattr(design_search, "foresee_parts", lambda *_: None)
+    monkeypatch.setattr(design_search, "size_parts", lambda _, begin, **__: ["too weak"] * len(begin))
+    task = SimpleNamespace(rules=SimpleNamespace(graduated=True), sections=(1, 2))
+    search = SimpleNamespace(task=task, failed=lambda design, _: lacking.append(design.year))
+    designs = [SimpleNamespace(year=year, choice=None, estimate=0.0) for year in (5.0, 2.0, 6.0, 1.0, 4.0, 3.0)]
+    assert design_search._final_designs(search, designs, best) == []
+    assert [design.year for design in seen] == [1.0, 2.0, 3.0, 4.0, 5.0, 6.0][:tried]
+    assert lacking == [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
