@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -55,6 +57,17 @@ def test_a_half_width_with_no_place_on_the_roll_is_half_way_back_to_the_last_too
     search = load_control.LoadSearch(target=0.0, log_alpha=-1.0, slope=2.0, low=-3.0)
     search.reject()
     assert (search.high, search.log_alpha) == (-1.0, -2.0)
+
+
+def test_a_load_that_is_a_power_of_the_width_is_met_by_the_second_secant():
+    """p = 3 α^2.7 and μ = p^0.4: two half widths have both exponents, and the straight line of logarithms ends on p."""
+    search = load_control.LoadSearch(target=math.log(0.02), log_alpha=math.log(0.1), slope=2.0)
+    for _ in range(2):
+        pressure = 3.0 * math.exp(2.7 * search.log_alpha)
+        search.accept(SimpleNamespace(friction=np.array([pressure**0.4]), eps=np.zeros(1)), math.log(pressure))
+    assert search.slope == pytest.approx(2.7, rel=1e-12)
+    assert search.exponent == pytest.approx([0.4], rel=1e-12)
+    assert math.exp(search.log_alpha) == pytest.approx((0.02 / 3.0) ** (1.0 / 2.7), rel=1e-12)
 
 
 @pytest.mark.parametrize(("tolerated", "pressing"), [(1.2, True), (0.8, False)])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -273,6 +274,17 @@ def test_strips_that_cannot_be_polished_keep_the_grid_with_its_error(monkeypatch
     x = np.array([-0.4, 0.1, 0.6, 0.9])
     np.testing.assert_allclose(found.pressure(x), exact.pressure(x), rtol=0, atol=1e-2 * exact.peak_pressure)
     np.testing.assert_allclose(found.profile(x), exact.profile(x), rtol=0, atol=1e-4)
+
+
+@pytest.mark.parametrize("allowed", [0, 2])
+def test_orders_without_strips_near_the_grids_are_given_up_after_those_allowed(monkeypatch, allowed):
+    tried = []
+    monkeypatch.setattr(module, "balance_strips", lambda _, order, *__, **___: tried.append(order))
+    monkeypatch.setattr(module, "_LAST_TRIAL_ORDER", module.ORDERS[0] + 20)
+    monkeypatch.setattr(module, "next_order", lambda order, _: order + 1)
+    start = SimpleNamespace(centre=0.0, alpha=1.0, failures=allowed)
+    assert module.StripsOrders(SimpleNamespace(), start, 1e-4).balance() is None
+    assert len(tried) == allowed + 1
 
 
 class TestLineContacts:

@@ -6,7 +6,7 @@ import pytest
 
 from conveyor import shelf
 from conveyor.calculated_conveyor import CalculatedConveyor, Variant
-from conveyor.indentation import softening
+from conveyor.indentation import resolved_relaxation_times, softening
 from conveyor.indentation.softening import STRAIN_RTOL
 from conveyor.line import covers
 from conveyor.models.variants import crossed_settings, with_compound
@@ -89,3 +89,20 @@ def test_compounds_of_the_bottom_cover_share_the_line_and_the_return_rolls(line)
     assert set(one.contacts.curves_of("return")) == set(other.contacts.curves_of("return"))
     assert not set(one.contacts.curves_of("carry")) & set(other.contacts.curves_of("carry"))
     assert one.contacts.covers["carry"].rubber is not other.contacts.covers["carry"].rubber
+
+
+def test_the_fastest_time_resolved_is_that_of_the_roll_that_resolves_most(line):
+    """Of the middle roll and of the wings, each at its least load: none may lose terms of its rubber."""
+    (found,) = calculated(line, SPEEDS[1:2])
+    cover = found.contacts.covers["carry"]
+    work = covers.CoverLoading(found.line, "carry", cover, line.belt.bottom_cover.compound, found.temperature)
+    each = [
+        resolved_relaxation_times(
+            covers.roll_contact(found.line, kind, cover), kind.lowest, covers.TERM_MERGE_SHARE * 1e-4
+        )
+        for kind in work.kinds
+    ]
+    fastest, slowest = covers.resolved_time_range(work, 1e-4)
+    assert len({first for first, _ in each}) > 1
+    assert fastest == pytest.approx(min(first for first, _ in each), rel=1e-12)
+    assert slowest == pytest.approx(each[0][1], rel=1e-12)  # by the cover and the speed, alike for all
