@@ -6,11 +6,14 @@ import math
 import re
 from operator import itemgetter
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 import conveyor
+from conveyor.checks import contact_checks
 from conveyor.checks.bulk_checks import belt_filling
+from conveyor.line.stretches import STRANDS
 from conveyor.report.table_model import Column, Figure, Table, figure_table
 from conveyor.units import si
 from conveyor.units.presentation import display_unit
@@ -331,3 +334,29 @@ def test_six_figures_are_large_by_every_method(line, method):
     made = conveyor.analyse(line.replace(calculation=line.calculation.replace(method=method))).contents()
     for place in ("tile", "large"):
         assert len({figure.label for figure in made.figures_for(place)}) == 6
+
+
+@pytest.mark.parametrize(("deepest", "verdict"), [(0.2, "pass"), (0.201, "FAIL")])
+def test_small_strain_ends_at_a_fifth_of_the_cover(deepest, verdict):
+    """Its mean strain under the roll is Δ/h; a fifth itself is still within, on each strand by itself."""
+    covers = {strand: SimpleNamespace(thickness=0.006) for strand in STRANDS}
+    contacts = SimpleNamespace(deepest=lambda strand: deepest if strand == "return" else 0.01, covers=covers)
+    found = contact_checks.cover_penetration(SimpleNamespace(contacts=contacts))
+    assert [check.verdict for check in found] == ["pass", verdict]
+
+
+@pytest.mark.parametrize(
+    ("data", "verdict", "decides"),
+    [
+        ((1.0, 500.0), "FAIL", 1000.0),
+        ((50.0, 1e6), "FAIL", 10.0),
+        ((8.0, 1e6), "pass", 10.0),
+        ((1e-3, 1100.0), "pass", 1000.0),
+        ((40.0, 900.0), "FAIL", 10.0),
+    ],
+)
+def test_the_end_of_the_band_that_has_less_of_data_decides(data, verdict, decides):
+    """10 to 1000 Hz: short by a factor of 2 above, of 5 below; to spare a factor of 1.25 below, of 1.1 above."""
+    check = contact_checks._coverage_check("carry", "mine", (10.0, 1000.0), data, 293.15)
+    assert (check.verdict, check.calculated) == (verdict, decides)
+    assert check.required == (data[0] if decides == 10.0 else data[1])
