@@ -119,3 +119,22 @@ def test_what_has_no_usual_bearing_or_grease_is_refused():
         drag(250.0, air=150.0)
     with pytest.raises(InputError, match=r"belt_speed: got 0\.0"):
         drag(250.0, speed=0.0)
+
+
+@pytest.mark.parametrize(
+    ("roll", "name", "balls", "ball", "factor"),
+    [
+        (0.051, "6201", 7, 5.953, 12.4),
+        (0.076, "6203", 8, 6.747, 13.1),
+        (0.108, "6204", 8, 7.938, 13.1),
+        (0.133, "6205", 9, 7.938, 13.8),
+        (0.159, "6305", 7, 11.509, 12.4),
+        (0.219, "6306", 8, 12.303, 13.1),
+        (0.3, "6308", 8, 15.081, 13.0),
+    ],
+)
+def test_static_ratings_are_those_of_the_balls_inside(roll, name, balls, ball, factor):
+    """ISO 76: C0 = f0 i Z D², D in mm; balls of the usual makers (general knowledge), printed ratings are rounded."""
+    bearing = usual_bearing(roll)
+    assert bearing.name == name
+    assert bearing.static_rating == pytest.approx(factor * balls * ball**2, rel=0.03)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -327,3 +328,13 @@ def test_cleaners_are_warned_of_where_none_are_given(line, result):
     assert told(result) == []
     (assumed,) = told(calculate(with_fields(line, {"route.cleaners": []})))
     assert "2 as wide as the belt assumed" in assumed
+
+
+def test_the_excited_band_of_a_strand_reaches_over_those_of_all_its_rolls(result, monkeypatch):
+    """Rolls of three diameters, one of which loses nothing: from the lowest of the lower ends to the highest of all."""
+    bands = [(8.0, 400.0), (None, None), (5.0, 100.0)]
+    curves = tuple(SimpleNamespace(slowest_excited=low, fastest_excited=high) for low, high in bands)
+    monkeypatch.setattr(type(result.contacts), "curves_of", lambda *_: curves)
+    assert result.contacts.excited_band("carry") == (5.0, 400.0)
+    monkeypatch.setattr(type(result.contacts), "curves_of", lambda *_: curves[1:2])
+    assert result.contacts.excited_band("carry") is None

@@ -11,9 +11,11 @@ from types import SimpleNamespace
 import pytest
 
 import conveyor
-from conveyor.checks import contact_checks
+from conveyor.checks import contact_checks, tension_checks
 from conveyor.checks.bulk_checks import belt_filling
 from conveyor.line.stretches import STRANDS
+from conveyor.loop.start_and_stop import motion_states
+from conveyor.pipeline import calculate
 from conveyor.report.table_model import Column, Figure, Table, figure_table
 from conveyor.units import si
 from conveyor.units.presentation import display_unit
@@ -360,3 +362,12 @@ def test_the_end_of_the_band_that_has_less_of_data_decides(data, verdict, decide
     check = contact_checks._coverage_check("carry", "mine", (10.0, 1000.0), data, 293.15)
     assert (check.verdict, check.calculated) == (verdict, decides)
     assert check.required == (data[0] if decides == 10.0 else data[1])
+
+
+def test_a_belt_is_slack_where_it_has_no_tension_at_all(line):
+    """Not where it has little: that is for the sag; the lowest of every state of motion is held against 0 N."""
+    calculation = calculate(line)
+    (check,) = tension_checks.slack_belt(calculation)
+    lowest = min(state.smallest for state in motion_states(calculation.balance, calculation.motions))
+    assert (check.verdict, check.required) == ("pass", 0.0)
+    assert check.calculated == pytest.approx(lowest, rel=1e-12)

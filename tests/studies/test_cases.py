@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import calculate, calculate_many
 from conveyor.spec import load
+from conveyor.studies import load_cases
 from conveyor.studies.load_cases import CalculatedCases, analyse_cases
 from conveyor.units import quantity, si
 from conveyor.units.sentences import degree_signs
@@ -455,3 +457,17 @@ def test_cases_of_the_spec_are_read_back_and_calculated():
 
 def test_without_cases_the_standard_ones(line):
     assert [case.loading for case in analyse_cases(line, rtol=1e-4).cases] == list(STANDARD_LOADINGS)
+
+
+def test_figures_over_all_loads_take_their_own_end_of_the_friction_band():
+    """Forces and motor powers come as (least friction, friction to design for)."""
+    load = SimpleNamespace(forces=(-2e3, 9e3), motors=(-5e3, 40e3))
+    taken = {name: load_cases._FIGURES[f"{name}_friction_{end}"][3](load) for name, end in (
+        ("least_drive_force", "low"), ("largest_drive_force", "high"),
+        ("least_motor_power", "low"), ("largest_motor_power", "high"))}  # fmt: skip
+    assert taken == {
+        "least_drive_force": -2e3,
+        "largest_drive_force": 9e3,
+        "least_motor_power": -5e3,
+        "largest_motor_power": 40e3,
+    }
