@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Final
 
@@ -32,6 +32,7 @@ from conveyor.sizing.screen import (
     first_calibration,
     screen_candidates,
 )
+from conveyor.sizing.sensitivity import Neighbours, size_neighbours
 from conveyor.sizing.sized_design import Shortfall, SizedDesign
 from conveyor.sizing.sizing_task import SizingTask, drive_powers
 from conveyor.sizing.spacing import graduated_spacings
@@ -89,6 +90,9 @@ class CalculatedSizing:
         Reasons why calculated candidates were rejected, with their number.
     estimate_error : float
         Largest relative error of the estimated yearly cost [-].
+    neighbours : mapping of DesignChoice to SizedDesign or Shortfall
+        Choices that differ from the best design in one value, sized for the full belt; none that keeps every rule and
+        check in every load costs less.
     """
 
     duty: SizingDuty
@@ -98,6 +102,7 @@ class CalculatedSizing:
     calculated: int
     refused: Mapping[str, int]
     estimate_error: float
+    neighbours: Neighbours = field(repr=False)
 
     def __repr__(self) -> str:
         count = f"{len(self.designs)} designs of {self.calculated} calculated, {self.candidates:,} candidates"
@@ -167,15 +172,45 @@ def size_conveyor(duty: SizingDuty, *, best: int = 3, progress: ProgressCallback
             break
     if not final:
         raise search.refusal(len(every))
+    ranked, neighbours = _rank_with_neighbours(search, final)
     return CalculatedSizing(
         duty,
-        tuple(final[:best]),
+        tuple(ranked[:best]),
         len(every),
         int(np.isfinite(search.estimate.year).sum()),
         len(search.answers),
         search.reasons,
-        max(abs(one.estimate / one.year - 1.0) for one in [*search.designs, *final]),
+        max(abs(one.estimate / one.year - 1.0) for one in [*search.designs, *final, *ranked]),
+        neighbours,
     )
+
+
+def _rank_with_neighbours(search: _Search, final: list[SizedDesign]) -> tuple[list[SizedDesign], Neighbours]:
+    """Designs by rank, and what stands around the first: none of it costs less and keeps all rules in every load.
+
+    Covers thicker than wear asks for are no choice of the search.
+    """
+    task, failed = search.task, set[DesignChoice]()
+    while True:
+        first = final[0]
+        neighbours = size_neighbours(task, first)
+        cheaper = [
+            one
+            for choice, one in neighbours.items()
+            if isinstance(one, SizedDesign)
+            and one.year < first.year
+            and choice.thicker <= first.choice.thicker
+            and choice not in failed
+            and choice != first.choice
+        ]
+        if not cheaper:
+            return final, neighbours
+        estimated = screen_candidates(task, Candidates.of_choices(task, [one.choice for one in cheaper]), search.levels)
+        cheaper = [replace(one, estimate=float(cost)) for one, cost in zip(cheaper, estimated.cost, strict=True)]
+        final = _rank_designs([*final, *_final_designs(search, cheaper, 1)])
+        if final[0] is first:
+            return final, neighbours
+        failed |= {one.choice for one in cheaper}
 
 
 def _stretch_refusal(task: SizingTask) -> NoSolutionError:
@@ -257,10 +292,10 @@ class _Search:
 
     def failed(self, design: SizedDesign, why: Shortfall) -> None:
         """Reject a design that fails under another load."""
-        self.reasons[why.rule] += 1
         for i, one in self.answers.items():
             if one is design:
                 self.answers[i] = why
+                self.reasons[why.rule] += 1
 
     def _levelled(
         self,

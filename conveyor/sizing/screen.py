@@ -125,6 +125,18 @@ class Candidates:
         widest = np.array([task.widest_spacings(on.trough) for on in running]).reshape(-1, 2)[numbers[:, 0]].T
         return cls(task, running, numbers[(apart[0] <= apart[1]) & np.all(apart <= widest + _ROUNDING, axis=0)])
 
+    @classmethod
+    def of_choices(cls, task: SizingTask, choices: Sequence[DesignChoice]) -> Candidates:
+        """These choices alone, with the least covers and evenly spaced sets."""
+        running = tuple(TroughAtSpeed(one.trough, one.speed, one.filling, one.roll) for one in choices)
+        carry, back = task.spacings
+        numbers = [
+            (i, carry.index(one.carry), back.index(one.back), one.cover, task.kinds.index(one.kind),
+             task.rules.drives.index(one.drives))
+            for i, one in enumerate(choices)
+        ]  # fmt: skip
+        return cls(task, running, np.array(numbers, dtype=np.int64).reshape(-1, 6))
+
     def __len__(self) -> int:
         return len(self.numbers)
 
@@ -367,14 +379,14 @@ def _estimate_loop(
         sag = np.minimum(sags, spans / (8.0 * mean))
     force = friction.sum(axis=0) * length + rest + bulk * g * sections[:, 1].sum()
     mean += (task.rules.start_factor - 1.0) * np.abs(design_force) * _START_MEAN_SHARE
-    strength = safety * largest / width
+    strength = levels.uses.get("belt strength", 1.0) * safety * largest / width
     lasting = np.array([task.lasting_strain(one) for one in task.kinds])[kind]
     travel = levels.uses.get("take-up travel", 1.0) / task.take_up_strain
     left = 1.0 / travel - lasting
     stiffness = np.divide(mean / width, left, out=np.full_like(mean, np.inf), where=left > 0.0)
     weak = (series.strengths[kind] < strength[:, None]) | (series.stiffnesses[kind] < stiffness[:, None])
     asked, last = weak.sum(axis=1), series.last[kind]
-    strength *= levels.uses.get("belt strength", 1.0) / series.strongest[kind]
+    strength /= series.strongest[kind]
     travel = travel * (mean / width / series.stiffest[kind] + lasting)
     sets = np.array([task.lump_factor * (belt + bulk) * g * carry, spans[1]]).T
     chosen = np.minimum(asked, last)

@@ -1,19 +1,23 @@
-"""Sensitivity of a design: one choice varied at a time, everything else sized and calculated again."""
+"""The choices of a design varied one at a time, everything else sized and calculated again."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
 from conveyor.models.sizing import within_limit
 from conveyor.sizing.design_choice import DesignChoice, RollSize, TroughSize
-from conveyor.sizing.part_sizing import size_parts
+from conveyor.sizing.part_sizing import foresee_parts, size_parts
 from conveyor.sizing.sized_design import Shortfall, SizedDesign
 from conveyor.sizing.sizing_task import SizingTask
 
+Neighbours: TypeAlias = Mapping[DesignChoice, SizedDesign | Shortfall]
+"""Choices that differ from a design in one value, with their design or why there is none."""
 _Point: TypeAlias = tuple[float, "DesignChoice | None"]
 _COVER_STEPS: Final = (0, 2, 4, 8)  # steps of the bottom cover
+_BREAKS_RULES: Final = "keeps no rule of filling, speed or rolls"
+_ONLY_BRAKES: Final = "costs less, but a cover thicker than its wear asks for only brakes the belt"
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +32,8 @@ class VariedChoice:
         SI.
     designs : tuple of SizedDesign or str
         Design at each value, or the reason why there is none.
+    every_load : tuple of bool
+        Whether the design is calculated and checked in every load; else with the full belt, dearer than the best.
     at : float
         Value of the design.
     """
@@ -36,11 +42,12 @@ class VariedChoice:
     kind: str
     values: tuple[float, ...]
     designs: tuple[SizedDesign | str, ...]
+    every_load: tuple[bool, ...]
     at: float
 
 
-def vary_choices(task: SizingTask, design: SizedDesign) -> tuple[VariedChoice, ...]:
-    """Vary the set spacings, roll diameter, speed and bottom cover of a design, one at a time.
+def size_neighbours(task: SizingTask, design: SizedDesign) -> Neighbours:
+    """Size every choice that differs from a design in one value, for the full belt.
 
     Parameters
     ----------
@@ -51,23 +58,57 @@ def vary_choices(task: SizingTask, design: SizedDesign) -> tuple[VariedChoice, .
 
     Returns
     -------
+    mapping of DesignChoice to SizedDesign or Shortfall
+        Belt class, motors and brake are sized for each; the base with evenly spaced sets is one of them.
+    """
+    varied = _varied_choices(_choice_axes(task, replace(design.choice, graduated=()), design.chosen.bottom))
+    parts = replace(design.chosen, settling=False, backstop=0.0)
+    made = size_parts(task, [(choice, parts, design.estimate) for choice in varied])
+    return dict(zip(varied, made, strict=True))
+
+
+def vary_choices(
+    task: SizingTask, design: SizedDesign, neighbours: Neighbours | None = None
+) -> tuple[VariedChoice, ...]:
+    """Vary the set spacings, roll diameter, speed and bottom cover of a design, one at a time.
+
+    Parameters
+    ----------
+    task : SizingTask
+        The duty.
+    design : SizedDesign
+        Base design; its carry sets are evenly spaced.
+    neighbours : mapping of DesignChoice to SizedDesign or Shortfall, optional
+        What `size_neighbours` gave for it; sized here without.
+
+    Returns
+    -------
     tuple of VariedChoice
         Belt class, motors and brake are sized at every point; points that violate a rule or check have no design.
+
+    Notes
+    -----
+    The points beside the design, and all that cost less than it with the full belt, are calculated in every load. A
+    further load only adds cost, so the others stay dearer.
     """
     base = replace(design.choice, graduated=())
     axes = list(_choice_axes(task, base, design.chosen.bottom))
-    varied = list(dict.fromkeys(choice for *_, points in axes for _, choice in points if choice is not None))
-    begin = [(choice, replace(design.chosen, settling=False), design.estimate) for choice in varied]
-    made = size_parts(task, begin)
+    full = size_neighbours(task, design) if neighbours is None else neighbours
+    judged = _in_every_load(task, design, full, axes)
     system = task.duty.report.units
-    answers = {
-        choice: one.why.text(system) if isinstance(one, Shortfall) else one
-        for choice, one in zip(varied, made, strict=True)
-    }
+
+    def told(choice: DesignChoice | None) -> SizedDesign | str:
+        """Design of a point, or the reason why there is none."""
+        if choice is None:
+            return _BREAKS_RULES
+        one = judged.get(choice, full[choice])
+        if isinstance(one, Shortfall):
+            return one.why.text(system)
+        return _ONLY_BRAKES if choice.thicker > base.thicker and one.year < design.year else one
 
     def point_value(kind: str, value: float, choice: DesignChoice | None) -> float:
         """Value of a point; a belt speed as gearboxes give it."""
-        answer = None if choice is None or kind != "speed" else answers[choice]
+        answer = None if choice is None or kind != "speed" else judged.get(choice, full[choice])
         return answer.choice.speed if isinstance(answer, SizedDesign) else value
 
     return tuple(
@@ -75,14 +116,40 @@ def vary_choices(task: SizingTask, design: SizedDesign) -> tuple[VariedChoice, .
             name,
             kind,
             tuple(point_value(kind, value, choice) for value, choice in points),
-            tuple(
-                "keeps no rule of filling, speed or rolls" if choice is None else answers[choice]
-                for _, choice in points
-            ),
+            tuple(told(choice) for _, choice in points),
+            tuple(choice in judged for _, choice in points),
             at,
         )
         for name, kind, at, points in axes
     )
+
+
+def _in_every_load(
+    task: SizingTask, design: SizedDesign, full: Neighbours, axes: Sequence[tuple[str, str, float, list[_Point]]]
+) -> Neighbours:
+    """Designs of the full belt that stand beside the base or cost less, sized for every load."""
+    base = replace(design.choice, graduated=())
+    beside = {base}
+    for *_, value, points in axes:
+        at = min(range(len(points)), key=lambda i: abs(points[i][0] - value))
+        beside |= {choice for _, choice in points[max(0, at - 1) : at + 2] if choice is not None}
+    asked = [
+        (choice, one)
+        for choice, one in full.items()
+        if isinstance(one, SizedDesign) and (choice in beside or one.year < design.year) and choice != design.choice
+    ]
+    made = size_parts(
+        task,
+        [(choice, foresee_parts(task, one), one.estimate) for choice, one in asked],
+        every_load=True,
+        made=[one for _, one in asked],
+    )
+    return {design.choice: design} | dict(zip((choice for choice, _ in asked), made, strict=True))
+
+
+def _varied_choices(axes: Iterable[tuple[str, str, float, list[_Point]]]) -> list[DesignChoice]:
+    """Choices of all points, each once."""
+    return list(dict.fromkeys(choice for *_, points in axes for _, choice in points if choice is not None))
 
 
 def _choice_axes(task: SizingTask, base: DesignChoice, bottom: float) -> Iterator[tuple[str, str, float, list[_Point]]]:

@@ -210,6 +210,11 @@ def test_what_varies_around_the_best_passes_through_it(small, sized):
     covers = [design for design in sweeps[-1].designs if not isinstance(design, str)]
     thinner, thicker = covers[0], covers[-1]
     assert thicker.found.balance.forces.indentation > thinner.found.balance.forces.indentation
+    for sweep in sweeps:  # the value of the design is the design itself, but for sets graduated along the profile
+        at = min(range(len(sweep.values)), key=lambda i: abs(sweep.values[i] - sweep.at))
+        assert sweep.every_load[at]
+        if not sized.best.choice.graduated:
+            assert sweep.designs[at] is sized.best
 
 
 def test_sets_stand_no_farther_apart_than_sag_allows(sized):

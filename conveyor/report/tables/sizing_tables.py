@@ -72,7 +72,7 @@ _CANDIDATES: Final = (
 
 def sizing_contents(sizing: CalculatedSizing, system: System, *, vary: bool = True) -> Contents:
     """Contents of the sizing report in a unit system; with `vary` also variations of the best design."""
-    sweeps = vary_choices(sizing.task, sizing.best) if vary else ()
+    sweeps = vary_choices(sizing.task, sizing.best, sizing.neighbours) if vary else ()
     best, line = sizing.best, sizing.best.found.line
     parts = (
         best_design_table(sizing, system), design_table(sizing),
@@ -257,9 +257,10 @@ def sweep_table(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> T
             dict.fromkeys(("spacing", "size", "speed")) | {sweep.kind: value},
             design if isinstance(design, SizedDesign) else None,
             design if isinstance(design, str) else "",
+            "" if isinstance(design, str) else "every load" if every_load else "full belt",
         )
         for sweep in sweeps
-        for value, design in zip(sweep.values, sweep.designs, strict=True)
+        for value, design, every_load in zip(sweep.values, sweep.designs, sweep.every_load, strict=True)
     ]
 
     columns = (
@@ -273,10 +274,16 @@ def sweep_table(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> T
         Column("idlers a year", money, lambda row: row[2] and idler_cost(row[2]), json="idlers_per_year", page=None),
         Column("belt a year", money, "2.costs.yearly.belt", json="belt_per_year", page=None),
         Column("cost a year", money, "2.year", json="cost_per_year"),
+        Column("calculated for", "text", "4", json="calculated_for"),
         Column("no design because", "text", "3", json="why"),
     )
+    note = (
+        "Values beside that of the design, and all that cost less with the full belt, are calculated in every load; "
+        "the others with the full belt: further loads only add cost. None that keeps every rule in every load costs "
+        "less than rank 1"
+    )
     caption = "One choice varied around the best design, carry sets evenly apart; belt class, motors, brake sized again"
-    return Table("around", "Around the best", caption, columns, rows, "around")
+    return Table("around", "Around the best", caption, columns, rows, "around", note)
 
 
 def spacing_table(sizing: CalculatedSizing) -> Table:
