@@ -46,6 +46,7 @@ NORMAL_SPACINGS: Final = (
     (96, 3.5, 3.5, 3.0, 2.5, 2.0, 2.0, 8.0),
 )
 LOADING_SPACING_SHARE: Final = 0.5  # [-], sets at a loading point over the others; CEMA, general knowledge
+SKIRTBOARD_TIME: Final = 0.6 / 0.5  # [s] from where bulk lands; Martin Engineering, little air: 0.6 m for each 0.5 m/s
 EDGE_SHARE: Final = 0.055  # [-], CEMA: standard edge distance 0.055 B + 0.9 in
 EDGE_LEAST: Final = 0.9 * 0.0254  # [m], CEMA
 # DIN 22101, sum of points up to -> addition to the least cover [m]; general knowledge, middle of each range

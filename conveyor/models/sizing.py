@@ -166,7 +166,7 @@ class SiteRules(Model):
     return_spacings: tuple[SetSpacing, ...] = ()
     """The same of return sets."""
     loading_spacing: SetSpacing | None = None
-    """Distance of the sets at the loading points of the route, at most that of the carry sets; half of it without."""
+    """Distance of the sets where the bulk lands, at most that of the carry sets; half of it without."""
     graduated: bool = True
     """Whether the distance of carry sets may differ from section to section."""
     carry_sag: Annotated[Fraction, Bounds(gt="0 %", le="5 %")] = quantity("1 %")
@@ -290,9 +290,6 @@ class SizingDuty(Model):
         if not self.listed.items("rolls"):
             diameters = (row.diameter for row in sizes.rolls)
             yield from self._size_problems("roll_diameters", rules.roll_diameters, diameters)
-        if rules.loading_spacing is not None and (self.route is None or self.route.feeding is None):
-            told = "given, but the route has no loading point; give route.feeding with its skirts, or remove it"
-            yield Problem(("rules", "loading_spacing"), told)
         kinds = {
             "steel cord" if one.fields["carcass"]["kind"] == "steel cord" else "EP"
             for one in self.listed.items("belts")

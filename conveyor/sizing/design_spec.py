@@ -17,6 +17,7 @@ from conveyor.models.maker_lists import ListedItem
 from conveyor.models.sizing import DriveLayout
 from conveyor.sizing.design_choice import CarcassClass, DesignChoice, RollSize, SelectedParts, WidthSize
 from conveyor.sizing.listed_sizes import listed_belt, listed_motor, named_item
+from conveyor.sizing.loading_zones import divide_loading_sections
 from conveyor.sizing.sizing_task import SizingTask
 from conveyor.units import from_si, text
 
@@ -60,10 +61,7 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
     route = given_data(duty.sized_route)
     for section, spacing in zip(route["sections"], choice.graduated, strict=bool(choice.graduated)):
         section["carry_spacing"] = written(spacing, "m")
-    for point in [*([route["feeding"]] if "feeding" in route else []), *route.get("further_feeding", [])]:
-        at = next((i for i, section in enumerate(route["sections"]) if section["name"] == point.get("section")), 0)
-        spacing = choice.graduated[at] if choice.graduated else choice.carry
-        point.setdefault("idler_spacing", written(task.loading_spacing(spacing), "m"))
+    route = divide_loading_sections(task, choice, route, written)
     route["pulleys"] = _all_pulleys(task, choice, chosen)
     tension = {"tension": written(chosen.take_up, "kN", 4)} if chosen.take_up > 0.0 else {}
     route["take_up"] = {"kind": "gravity", "position": "drive", **tension}

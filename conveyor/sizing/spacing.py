@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Final
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.power import JOULE_PER_KWH
@@ -13,6 +14,8 @@ from conveyor.laws.roll_life import BALL_EXPONENT
 from conveyor.line.roll_lives import idler_set_life
 from conveyor.sizing.sized_design import SizedDesign
 from conveyor.sizing.sizing_task import SizingTask
+
+_ROUNDING: Final = 1e-5  # of six digits written
 
 
 @dataclass(frozen=True)
@@ -23,6 +26,8 @@ class SectionSpacing:
     ----------
     section, strand : str
         Location.
+    loading : bool
+        Whether carry sets stand closer here because the bulk lands.
     length, built : float
         Length of the section; present spacing [m].
     sag : float
@@ -38,6 +43,7 @@ class SectionSpacing:
 
     section: str
     strand: str
+    loading: bool
     length: float
     built: float
     sag: float
@@ -75,16 +81,18 @@ def section_spacings(task: SizingTask, design: SizedDesign) -> Iterator[SectionS
     g/(8 T) at the lowest steady tension. Bearing life falls with the third power of the load.
     """
     line, prices = design.found.line, task.duty.prices.amounts
-    width, roll, count = design.choice.trough.width, design.choice.roll, line.count
+    width, roll = design.choice.trough.width, design.choice.roll
+    even = _spacing_by_section(task, design)
     yearly = float(design.costs.yearly["rolls"]) / float(design.costs.capital["rolls"])
     worth = line.speed / task.efficiency * task.seconds / JOULE_PER_KWH * task.energy_price
     rolls = {"carry": (3, width.three), "return": width.return_rolls[:2]}
     for k, strand in enumerate(("carry", "return")):
         number, long = rolls[strand]
         one_set = number * (prices["roll"] + prices["roll_mass"] * roll.mass(long)) + prices["set"] * width.belt
-        for i, (length, _) in enumerate(task.sections):
-            at = i if strand == "carry" else 2 * count - 1 - i
+        for i in range(line.count):
+            at = i if strand == "carry" else 2 * line.count - 1 - i
             stretch = line.stretches[at]
+            length = stretch.length
             indentation, rotation = _spacing_forces(task, design.found, at)
             now, lowest = stretch.spacing, min(_lowest_tension(one, at) for one in design.pair)
             per_spacing = stretch.line_mass * line.gravity / (8.0 * task.sags[k])
@@ -92,6 +100,7 @@ def section_spacings(task: SizingTask, design: SizedDesign) -> Iterator[SectionS
             yield SectionSpacing(
                 section=stretch.section,
                 strand=strand,
+                loading=strand == "carry" and now < (1.0 - _ROUNDING) * even.get(stretch.section, math.inf),
                 length=length,
                 built=now,
                 sag=max(0.0, lowest) / per_spacing,
@@ -102,6 +111,12 @@ def section_spacings(task: SizingTask, design: SizedDesign) -> Iterator[SectionS
                 grows=worth * indentation / length / math.cbrt(now),
                 falls=worth * rotation / length * now + yearly * one_set,
             )
+
+
+def _spacing_by_section(task: SizingTask, design: SizedDesign) -> dict[str, float]:
+    """Carry spacing of each section of the duty, where no bulk lands [m]."""
+    names = [section.name for section in task.duty.sized_route.sections]
+    return dict(zip(names, design.choice.graduated or (design.choice.carry,) * len(names), strict=True))
 
 
 def _spacing_forces(task: SizingTask, found: CalculatedConveyor, at: int) -> tuple[float, float]:
@@ -130,12 +145,18 @@ def graduated_spacings(task: SizingTask, design: SizedDesign) -> Iterator[tuple[
     At the tensions of the design; if sag sets the take-up, also at tensions reduced as far as closer sets in the
     slackest section, and everything else, allow.
     """
-    carry = [one for one in section_spacings(task, design) if one.strand == "carry"]
-    slackest = min(carry, key=lambda one: one.sag / one.built)
+    names = [section.name for section in task.duty.sized_route.sections]
+    carry = {one.section: one for one in section_spacings(task, design) if one.strand == "carry" and not one.loading}
+    if not carry:
+        return
+    slackest = min(carry.values(), key=lambda one: one.sag / one.built)
     spare, per_metre = _sag_reserve(design), slackest.tension_per_spacing
     closer = (min(spare, (slackest.sag - a) * per_metre) for a in task.spacings[0] if a < slackest.built)
     for let_down in dict.fromkeys((0.0, *(closer if spare > 0.0 else ()))):
-        yield tuple(min(_allowed_spacings(task, design, one, let_down), key=one.cost) for one in carry)
+        cheapest = {
+            name: min(_allowed_spacings(task, design, one, let_down), key=one.cost) for name, one in carry.items()
+        }
+        yield tuple(cheapest.get(name, design.choice.carry) for name in names)
 
 
 def _allowed_spacings(task: SizingTask, design: SizedDesign, one: SectionSpacing, let_down: float) -> tuple[float, ...]:

@@ -254,7 +254,8 @@ def test_sets_may_stand_farther_apart_where_the_belt_is_tighter():
     ):
         assert list(apart) == sorted(apart)
         rows = list(section_spacings(task, found))
-        assert [row.built for row in rows] == pytest.approx([*apart, *[6.0] * 4])
+        assert [row.built for row in rows if not row.loading] == pytest.approx([*apart, *[6.0] * (len(apart) + 1)])
+        assert [row.built for row in rows if row.loading] == [pytest.approx(0.5 * apart[0])]
         for row in rows:
             assert row.built <= min(row.sag * (1.0 + 1e-6), row.bearings)
             least = row.cost(row.cheapest)  # d(g a^(1/3) + f/a)/da = 0
@@ -302,7 +303,8 @@ def test_sets_stand_closer_where_the_bulk_lands(small, rule, given, expected):
     choice = Candidates.of(task)[0]
     carcass = task.carcasses["EP"][3]
     spec = design_spec(task, choice, SelectedParts(carcass, 5e-3, 2e-3, (45e3,), 0.0), "fed")
-    assert si(spec.route.feeding.idler_spacing) == pytest.approx(expected)
+    assert si(spec.route.sections[0].carry_spacing) == pytest.approx(expected)
+    assert spec.route.sections[1].carry_spacing is None
     assert si(spec.idlers.carry.spacing) == pytest.approx(1.2)
 
 
@@ -345,11 +347,6 @@ def test_motors_suffice_by_the_method_of_the_contract_too(small, sized):
 def test_motors_by_cema_need_its_factors(small):
     with pytest.raises(InputError, match=r"rules\.basis.*cema classic needs Ky and Ai"):
         small.replace(rules=small.rules.replace(basis="cema classic"))
-
-
-def test_a_spacing_where_nothing_is_loaded_is_refused(small):
-    with pytest.raises(InputError, match=r"rules\.loading_spacing.*the route has no loading point"):
-        small.replace(rules=small.rules.replace(loading_spacing="500 mm"))
 
 
 def test_covers_are_those_of_wear_whatever_energy_is_worth(small):
