@@ -76,7 +76,7 @@ class Desk:
         self.workbench = workbench
         self._worker = ThreadPoolExecutor(1, thread_name_prefix="desk")
         self._background: set[StopSignal] = set()
-        self._longest = StopSignal()
+        self._studies: dict[str, StopSignal] = {}
 
     def begin(self) -> None:
         """Calculate the first file while the browser opens."""
@@ -184,7 +184,7 @@ class Desk:
                     made = self._assess(name, other, units, stop, every=every)
                     beside = NamedAssessment.of(titles[1 - rank], 1 - rank, made)
                 except ConveyorError as error:
-                    problem = self._errors(error)
+                    problem = _error_list(error)
             parts = (answer_parts if every else own_load_parts)(shown, beside)
             return {
                 "parts": {key: str(part) for key, part in parts.items()},
@@ -313,17 +313,21 @@ class Desk:
         """Tables of a study that takes longer."""
         asked = await request_data(request)
         name, changes, units = text_value(asked, "file"), variant_changes(asked, "changes") or {}, units_value(asked)
-        key = text_value(asked, "key")
+        key, number = text_value(asked, "key"), text_value(asked, "id")
 
         def made(stop: StopSignal) -> str:
-            self._longest = stop
-            return str(study_part(self._assess(name, changes, units, stop), key, stop.check))
+            self._studies[number] = stop
+            try:
+                return str(study_part(self._assess(name, changes, units, stop), key, stop.check))
+            finally:
+                del self._studies[number]
 
         return JSONResponse({"part": await self._calculate(request, made, background=True, seconds=MOST_STUDY_SECONDS)})
 
-    async def _progress(self, _: Request) -> Response:
-        """Items done of the study that runs, and their total."""
-        told = [item for item in self._longest.told if isinstance(item, int)]
+    async def _progress(self, request: Request) -> Response:
+        """Items done of a study that runs, and their total; 0 of 0 of one that does not."""
+        running = self._studies.get(text_value(await request_data(request), "id"))
+        told = [item for item in ([] if running is None else running.told) if isinstance(item, int)]
         return JSONResponse({"done": told[0] if told else 0, "whole": told[1] if len(told) > 1 else 0})
 
     async def _drop(self, request: Request) -> Response:
@@ -343,9 +347,6 @@ class Desk:
         made = await self._calculate(request, lambda _: self.workbench.open_content(name, content))
         return JSONResponse({"file": made.name, "files": self.workbench.names})
 
-    def _errors(self, error: ConveyorError) -> list[dict[str, str]]:
-        return [{"path": path, "message": message} for path, message in field_errors(str(error))]
-
 
 def _checked_work(work: Callable[[StopSignal], T], stop: StopSignal) -> T:
     """Do work unless it was stopped while it waited."""
@@ -359,15 +360,17 @@ def _answer_errors(answer: Callable[[Request], Awaitable[Response]]) -> Callable
     async def answered(request: Request) -> Response:
         try:
             return await answer(request)
-        except CalculationStopped:
-            return JSONResponse({"stopped": True})
-        except ClientDisconnect:
+        except (CalculationStopped, ClientDisconnect):
             return JSONResponse({"stopped": True})
         except ConveyorError as error:
-            found = [{"path": path, "message": message} for path, message in field_errors(str(error))]
-            return JSONResponse({"errors": found}, _REFUSED)
+            return JSONResponse({"errors": _error_list(error)}, _REFUSED)
 
     return answered
+
+
+def _error_list(error: ConveyorError) -> list[dict[str, str]]:
+    """A refusal as plain data, by field."""
+    return [one._asdict() for one in field_errors(str(error))]
 
 
 async def _page_file(_: Request, name: str) -> Response:

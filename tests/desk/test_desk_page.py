@@ -15,6 +15,7 @@ from conveyor.desk.workbench import open_workbench
 from conveyor.errors import InputError
 from conveyor.models.fields import with_fields
 from conveyor.studies.loads import every_load
+from conveyor.text.markup import element
 
 playwright = pytest.importorskip("playwright.sync_api", reason="needs the package playwright")
 pytest.importorskip("starlette")
@@ -28,6 +29,10 @@ pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this ma
 SPECS = Path("examples/specs").resolve()
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-quic", "--no-first-run"]
 PASSWORD = "correct horse battery"  # noqa: S105 of a test
+AXE = next(iter(sorted(Path("node_modules/axe-core").resolve().glob("axe.min.js"))), None)
+"""Rules of axe-core, from `npm install --no-save axe-core` in the checkout."""
+FAULTS = (Path(__file__).parent / "page_faults.js").read_text(encoding="utf-8").partition("\n")[2]
+"""What a screen reader or a keyboard would miss on a page."""
 SPEED = "#sliders input[data-path='belt.speed']"
 
 
@@ -315,6 +320,9 @@ def test_without_a_spec_it_offers_one_of_each_kind(browser, tmp_path, monkeypatc
     try:
         page = context.new_page()
         page.goto(server.guard.address)
+        page.wait_for_selector("text=in-plant, SI")
+        assert page.evaluate(FAULTS) == []
+        assert axe_violations(page) == []
         page.click("text=in-plant, SI")
         page.wait_for_selector("#answer:not([hidden])")
         assert kilowatts(page) > 0
@@ -339,6 +347,119 @@ def test_a_file_changed_in_an_editor_is_read_again(page, tmp_path):
     assert not page.is_visible("#changed")
 
 
+def test_a_study_that_is_opened_is_made_again_when_the_hand_rests_and_stopped_by_the_next_input(page, monkeypatch):
+    def two_seconds(assessment, _, progress):
+        for i in range(40):
+            progress(i, 40)
+            time.sleep(0.05)
+        return element("p", f"at {assessment.own.line.speed} m/s")
+
+    monkeypatch.setattr(desk_server, "study_part", two_seconds)
+    asked = []
+    page.on("request", lambda request: asked.append(request.post_data_json) if "/further" in request.url else None)
+    page.click("#offered button")
+    wait_until(page, "!!document.querySelector('#further p')")
+    assert page.get_attribute("#offered button", "aria-pressed") == "true"
+    first = page.inner_text("#further")
+    set_speed(page, "5.5 m/s")
+    wait_until(page, "!!document.querySelector('#further .old')")
+    page.wait_for_selector("#cancel")
+    wait_until(page, "!document.querySelector('#progress').hidden")
+    set_speed(page, "6 m/s")  # while it is made
+    wait_until(page, "!document.querySelector('#further .old')")
+    assert [one["changes"] for one in asked] == [{}, {"belt.speed": "5.5 m/s"}, {"belt.speed": "6 m/s"}]
+    assert page.inner_text("#further") != first
+    set_speed(page, "6.5 m/s")
+    page.click("#cancel")
+    assert page.get_attribute("#offered button", "aria-pressed") == "false"
+    assert page.inner_text("#further") == ""
+    set_speed(page, "5 m/s")
+    wait_until(page, "document.querySelector('#command').textContent.indexOf('--set') < 0")
+    page.wait_for_timeout(1500)
+    assert len(asked) == 4  # closed: it is not made again
+
+
+def test_a_table_that_is_shown_follows_the_design(page):
+    asked = []
+    page.on("request", lambda request: asked.append(request) if "/table" in request.url else None)
+    page.focus("#table")
+    page.wait_for_selector("#table option[value=pulleys]", state="attached")
+    page.select_option("#table", "pulleys")
+    wait_until(page, "!!document.querySelector('#tabled table')")
+    first = page.inner_text("#tabled")
+    set_speed(page, "6 m/s")
+    wait_until(page, "!!document.querySelector('#tabled.old')")
+    wait_until(page, "!document.querySelector('#tabled.old')")
+    assert page.inner_text("#tabled") != first
+    count = len(asked)
+    page.evaluate("window.dispatchEvent(new Event('focus'))")
+    page.wait_for_timeout(2000)
+    assert len(asked) == count  # nothing has changed
+
+
+def axe_violations(page) -> list[str]:
+    """Violations that axe-core finds, with the elements; none where it is not installed."""
+    if AXE is None:
+        return []
+    found = page.evaluate(AXE.read_text(encoding="utf-8") + "; axe.run(document, { resultTypes: ['violations'] })")
+    return [f"{one['id']}: {[node['html'] for node in one['nodes']]}" for one in found["violations"]]
+
+
+def every_state(page):
+    """States of a page, each by its name: as opened, unfolded, two variants, phone, a wrong value, saving, print."""
+    yield "opened"
+    page.fill("#find", "wrap")
+    page.evaluate("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
+    page.focus("#table")
+    page.wait_for_selector("#table option[value=pulleys]", state="attached")
+    page.select_option("#table", "pulleys")
+    wait_until(page, "!!document.querySelector('#tabled table')")
+    yield "unfolded"
+    page.click("#compare")
+    set_speed(page, "4 m/s")
+    page.wait_for_selector("[data-part=verdict] .fail")
+    yield "two variants"
+    page.set_viewport_size({"width": 390, "height": 844})
+    yield "phone"
+    page.set_viewport_size({"width": 1440, "height": 900})
+    set_speed(page, "90 m/s")
+    page.wait_for_selector("#answer.stale")
+    yield "wrong value"
+    set_speed(page, "4.5 m/s")
+    page.wait_for_selector("#answer:not(.stale)")
+    page.keyboard.press("Control+s")
+    page.locator("#target").wait_for()
+    yield "saving"
+    page.keyboard.press("Escape")
+    page.emulate_media(media="print")
+    yield "print"
+
+
+def test_nothing_is_without_a_name_in_any_state(page):
+    faults = {state: page.evaluate(FAULTS) for state in every_state(page)}
+    assert {state: found for state, found in faults.items() if found} == {}
+
+
+@pytest.mark.skipif(AXE is None, reason="no axe-core here: npm install --no-save axe-core")
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_axe_finds_nothing_in_any_state(page, theme):
+    page.emulate_media(color_scheme=theme)
+    faults = {state: axe_violations(page) for state in every_state(page)}
+    assert {state: found for state, found in faults.items() if found} == {}
+
+
+def test_the_page_of_a_report_has_no_such_fault_either(browser, tmp_path):
+    result = conveyor.analyse(conveyor.load(SPECS / "overland.yaml"))
+    result.to_html(tmp_path / "report.html")
+    for theme in ("light", "dark"):
+        context = browser.new_context(color_scheme=theme)
+        made = context.new_page()
+        made.goto((tmp_path / "report.html").as_uri())
+        assert made.evaluate(FAULTS) == []
+        assert axe_violations(made) == []
+        context.close()
+
+
 def test_from_another_machine_the_password_opens_it(browser, tmp_path):
     """Through the browser's own form: with an origin, a cookie, and without a secure context."""
     shutil.copy(SPECS / "overland.yaml", tmp_path)
@@ -355,6 +476,8 @@ def test_from_another_machine_the_password_opens_it(browser, tmp_path):
         page = context.new_page()
         page.set_default_timeout(30_000)
         page.goto(f"http://127.0.0.2:{made.port}/")
+        assert page.evaluate(FAULTS) == []
+        assert axe_violations(page) == []
         page.fill("input[name=password]", "not this one, no")
         page.click("button")
         assert "This is not the password." in page.inner_text("[role=alert]")

@@ -702,7 +702,7 @@ def test_longer_studies_are_offered_where_the_spec_has_what_they_need(client, fo
     desk.workbench.open_path(folder / "overland_10km.yaml")
     assert set(ask(client, "/form", file="overland.yaml").json()["studies"]) == {"starts"}
     assert set(ask(client, "/form", file="overland_10km.yaml").json()["studies"]) == {"year", "ranges", "starts"}
-    refused = ask(client, "/further", file="overland.yaml", changes={}, key="year")
+    refused = ask(client, "/further", file="overland.yaml", changes={}, key="year", id="1")
     assert refused.status_code == 422
 
 
@@ -710,7 +710,7 @@ def test_the_year_of_a_variant_is_that_of_the_report(client, folder, desk):
     shutil.copy(SPECS / "overland_10km.yaml", folder / "overland_10km.yaml")
     desk.workbench.open_path(folder / "overland_10km.yaml")
     changes = {"cases[0].name": "first", "idlers.carry.spacing": "2 m"}
-    part = ask(client, "/further", file="overland_10km.yaml", changes=changes, key="year").json()["part"]
+    part = ask(client, "/further", file="overland_10km.yaml", changes=changes, key="year", id="1").json()["part"]
     line = with_fields(conveyor.load(folder / "overland_10km.yaml"), changes)
     loads = every_load(line)
     year = analyse_duty(line, take_up=loads.states.take_up)
@@ -719,11 +719,23 @@ def test_the_year_of_a_variant_is_that_of_the_report(client, folder, desk):
     assert row.unit("SI").written(row.value) in part
 
 
-def test_starts_are_followed_through_time_and_tell_their_progress(client):
-    part = ask(client, "/further", file="downhill.yaml", changes={}, key="starts").json()["part"]
-    assert "<table" in part
+def test_starts_are_followed_through_time_and_each_tells_its_own_progress(desk, client):
+    parts, told = [], []
+
+    def work():
+        page = client_of(desk)
+        parts.append(ask(page, "/further", file="downhill.yaml", changes={}, key="starts", id="mine").json()["part"])
+
+    going = threading.Thread(target=work)
+    going.start()
+    while going.is_alive():
+        told.append(ask(client, "/progress", id="mine").json()["whole"])
+        assert ask(client, "/progress", id="other").json() == {"done": 0, "whole": 0}
+        time.sleep(0.02)
+    assert "<table" in parts[0]
     scenarios = len(standard_scenarios(conveyor.load(SPECS / "downhill.yaml")))
-    assert ask(client, "/progress").json()["whole"] == scenarios
+    assert scenarios in told
+    assert ask(client, "/progress", id="mine").json() == {"done": 0, "whole": 0}  # it has ended
 
 
 # ---- the command

@@ -37,6 +37,9 @@ class Refused extends Error {
   constructor(errors) { super("refused"); this.errors = errors; }
 }
 
+const errorsOf = (problem) => problem.errors ?? [{ path: "", message: String(problem) }];
+const said = (problem) => errorsOf(problem).map((one) => `${one.path ? `${one.path}: ` : ""}${one.message}`).join("\n");
+
 async function post(path, body, signal) {
   let reply;
   try {
@@ -131,9 +134,9 @@ async function ask() {
   restSoon();
 }
 
-function restSoon() {
+function restSoon(after = PAUSE) {
   clearTimeout(pause);
-  pause = setTimeout(() => { if (!flying) rest(); }, PAUSE);
+  pause = setTimeout(() => { if (!flying) rest(); }, after);
 }
 
 async function answer() {
@@ -155,7 +158,7 @@ async function answer() {
       part.querySelectorAll("details").forEach((one, i) => { one.open = opened[i] ?? one.open; });
     }
     nameVerdicts();
-    if ($("further").hasChildNodes()) $("furthersaid").textContent = "of a design before the last change";
+    markStudies();
     $("answer").classList.remove("stale");
     $("answer").classList.toggle("waiting", !got.every);
     $("answer").hidden = false;
@@ -166,7 +169,7 @@ async function answer() {
   } catch (problem) {
     if (problem.name === "AbortError") { again = true; return; }
     $("answer").classList.add("stale");
-    showErrors(problem.errors ?? [{ path: "", message: String(problem) }]);
+    showErrors(errorsOf(problem));
   }
 }
 
@@ -227,18 +230,20 @@ const curveKey = (slider) => {
 };
 
 async function rest() {
-  if (!form || dragging || study || firstErrors.some((one) => !one.other)) return;
+  if (!form || dragging || firstErrors.some((one) => !one.other)) return;
+  resting?.abort();
   const going = resting = new AbortController();
-  if ($("table").value) await showTable();
   const body = { file: state.file, changes: changes(), units: state.units };
   const stale = form.sliders.filter((one) => curves.get(one.path)?.key !== curveKey(one));
   stale.forEach((one) => { curves.get(one.path) && (curves.get(one.path).passing = null); drawCurve(one); });
   try {
+    if (tabled !== $("table").value + design()) await showTable(going.signal);
     if (stale.length) {
       const keys = stale.map(curveKey);
       const got = await post("/curves", { ...body, paths: stale.map((one) => one.path) }, going.signal);
       stale.forEach((one, i) => { curves.set(one.path, { key: keys[i], points: got.curves[i], unit: got.unit, passing: null }); drawCurve(one); });
     }
+    for (const [key, held] of opened) if (held.of !== design()) await runStudy(key, held, going.signal);
     for (const slider of form.sliders) {
       const curve = curves.get(slider.path);
       if (!curve || curve.passing || curve.key !== curveKey(slider)) continue;
@@ -416,44 +421,66 @@ function showSides() {
 function printHead() {
   const place = document.querySelector(".printed") ?? $("main").insertBefore(make("div", { class: "printed" }), $("answer"));
   const lines = (side) => Object.entries(state[side] ?? {}).map(([path, text]) => `${path} ${text}`).join("; ") || "as the file";
-  place.replaceChildren(make("h2", {}, form.title), make("p", {}, `${state.file}, conveyor ${about.version}, ${new Date().toISOString().slice(0, 10)}`),
+  place.replaceChildren(make("h1", {}, form.title), make("p", {}, `${state.file}, conveyor ${about.version}, ${new Date().toISOString().slice(0, 10)}`),
     make("p", {}, state.b ? `${state.names[0]}: ${lines("a")} – ${state.names[1]}: ${lines("b")}` : `Changed: ${lines("a")}`));
 }
 
-// ---- longer studies
+// ---- longer studies: those that are opened are made again when the hand rests, and stopped by the next input
 
-let study = null; // what cancels the one that runs
+let study = ""; // the one that runs
+const opened = new Map(); // by key: what it was made of, and where it stands
+const design = () => JSON.stringify([state.file, form.digest, changes(), state.units]);
 
-async function runStudy(key) {
-  study?.abort();
-  const going = study = new AbortController();
-  const body = { file: state.file, changes: { ...changes() }, units: state.units, key };
+function openStudy(key) {
+  const held = opened.get(key);
+  if (held) {
+    held.node.remove();
+    opened.delete(key);
+    if (study === key) resting?.abort();
+  } else {
+    const node = make("section", { "aria-label": form.studies[key] });
+    opened.set(key, { of: "", node });
+    $("further").append(node);
+  }
+  offerStudies();
+  restSoon(0);
+}
+
+async function runStudy(key, held, signal) {
+  const of = design(), id = `${Math.random()}`;
+  study = key;
   $("progress").hidden = $("cancel").hidden = false;
   $("progress").removeAttribute("value");
   $("furthersaid").textContent = form.studies[key];
-  $("further").replaceChildren();
-  resting?.abort();
   const watch = setInterval(async () => {
-    const got = await post("/progress", {}).catch(() => ({ whole: 0 }));
-    if (study === going && got.whole) { $("progress").max = got.whole; $("progress").value = got.done; }
+    const got = await post("/progress", { id }).catch(() => ({ whole: 0 }));
+    if (got.whole) { $("progress").max = got.whole; $("progress").value = got.done; }
   }, 500);
   try {
-    const got = await post("/further", body, going.signal);
-    $("further").innerHTML = got.part;
-    $("furthersaid").textContent = `${form.studies[key]}: of the design as it was then`;
-    if (same(body.changes, changes())) $("furthersaid").textContent = form.studies[key];
+    const got = await post("/further", { file: state.file, changes: changes(), units: state.units, key, id }, signal);
+    held.node.innerHTML = got.part;
   } catch (problem) {
-    $("furthersaid").textContent = problem.name === "AbortError" ? "Stopped." : (problem.errors ?? []).map((one) => one.message).join("; ");
+    if (problem.name === "AbortError") throw problem;
+    held.node.textContent = `${form.studies[key]}: ${said(problem)}`;
+  } finally {
+    clearInterval(watch);
+    study = "";
+    $("progress").hidden = $("cancel").hidden = true;
+    $("furthersaid").textContent = "";
   }
-  clearInterval(watch);
-  if (study !== going) return;
-  study = null;
-  $("progress").hidden = $("cancel").hidden = true;
-  restSoon();
+  held.of = of;
+  $("status").textContent = `${form.studies[key]}: calculated.`;
+  markStudies();
+}
+
+function markStudies() {
+  for (const { of, node } of opened.values()) node.classList.toggle("old", of !== design());
+  $("tabled").classList.toggle("old", tabled !== $("table").value + design());
 }
 
 function offerStudies() {
-  $("offered").replaceChildren(...Object.entries(form.studies).map(([key, words]) => make("button", { type: "button", onclick: () => runStudy(key) }, words)));
+  for (const [key, held] of opened) if (!(key in form.studies)) { held.node.remove(); opened.delete(key); }
+  $("offered").replaceChildren(...Object.entries(form.studies).map(([key, words]) => make("button", { type: "button", "aria-pressed": String(opened.has(key)), onclick: () => openStudy(key) }, words)));
 }
 
 // ---- files
@@ -484,7 +511,7 @@ async function openFile(read) {
   try {
     await loadForm();
   } catch (problem) {
-    showErrors(problem.errors ?? [{ path: "", message: String(problem) }]);
+    showErrors(errorsOf(problem));
     return;
   }
   listFiles();
@@ -516,7 +543,7 @@ async function dropFile(file) {
     about.files = got.files;
     await openFile(fresh(got.file));
   } catch (problem) {
-    showErrors(problem.errors ?? [{ path: "", message: String(problem) }]);
+    showErrors(errorsOf(problem));
     listFiles();
   }
 }
@@ -555,7 +582,7 @@ async function save(kind) {
     else download(await post("/report", { ...body, kind }), stem + { workbook: ".xlsx", pdf: ".pdf", page: ".html" }[kind]);
     $("status").textContent = "The file is in your downloads.";
   } catch (problem) {
-    if (problem.name !== "AbortError") showErrors(problem.errors ?? [{ path: "", message: String(problem) }]);
+    if (problem.name !== "AbortError") showErrors(errorsOf(problem));
   }
   document.body.style.cursor = "";
 }
@@ -577,7 +604,7 @@ async function showDifference() {
     $("dosave").disabled = got.exists && !$("replace").checked;
   } catch (problem) {
     $("diff").replaceChildren();
-    refuse((problem.errors ?? []).map((one) => `${one.path ? `${one.path}: ` : ""}${one.message}`).join("\n") || String(problem));
+    refuse(said(problem));
   }
 }
 
@@ -595,7 +622,7 @@ async function doSave() {
     $("foot").textContent = `Saved ${got.saved} in ${got.folder}.`;
     ask();
   } catch (problem) {
-    $("saveerror").textContent = (problem.errors ?? [{ message: String(problem) }]).map((one) => one.message).join("\n");
+    $("saveerror").textContent = said(problem);
     $("saveerror").hidden = false;
   }
 }
@@ -633,15 +660,20 @@ async function listTables() {
   $("table").value = now;
 }
 
-async function showTable() {
-  const key = $("table").value;
+let tabled = ""; // what the table below is of
+
+async function showTable(signal) {
+  const key = $("table").value, of = key + design();
   if (!key) { $("tabled").replaceChildren(); return; }
   try {
-    const got = await post("/table", { file: state.file, changes: changes(), units: state.units, key });
+    const got = await post("/table", { file: state.file, changes: changes(), units: state.units, key }, signal);
     $("tabled").innerHTML = got.table;
   } catch (problem) {
-    $("tabled").textContent = (problem.errors ?? []).map((one) => one.message).join("; ");
+    if (problem.name === "AbortError") throw problem;
+    $("tabled").textContent = said(problem);
   }
+  tabled = of;
+  markStudies();
 }
 
 function listen() {
@@ -660,8 +692,8 @@ function listen() {
   $("replace").addEventListener("change", showDifference);
   $("dosave").addEventListener("click", doSave);
   $("table").addEventListener("focus", listTables, { once: false });
-  $("table").addEventListener("change", showTable);
-  $("cancel").addEventListener("click", () => study?.abort());
+  $("table").addEventListener("change", () => restSoon(0));
+  $("cancel").addEventListener("click", () => study && openStudy(study));
   $("upload").addEventListener("change", () => $("upload").files[0] && dropFile($("upload").files[0]));
   $("file").addEventListener("change", () => {
     const chosen = $("file").value;
@@ -672,16 +704,17 @@ function listen() {
   document.addEventListener("keydown", (event) => {
     if (event.key === "Escape") $("save").open = false;
     const typing = event.target.matches?.("input[type=text], input[type=search], #target");
-    if (!(event.ctrlKey || event.metaKey) || typing) return;
+    if (!(event.ctrlKey || event.metaKey)) return;
     const key = event.key.toLowerCase();
+    if (key === "s") { event.preventDefault(); if (form && !$("saver").open) { document.activeElement.blur(); openSaver(); } } // what is being typed counts
+    if (typing) return;
     if (key === "z" || key === "y") { event.preventDefault(); step(key === "y" || event.shiftKey ? 1 : -1); }
-    if (key === "s") { event.preventDefault(); if (form) openSaver(); }
   });
   document.addEventListener("click", (event) => { if (!$("save").contains(event.target)) $("save").open = false; });
   document.addEventListener("dragover", (event) => { event.preventDefault(); document.body.classList.add("dropping"); });
   document.addEventListener("dragleave", (event) => { if (!event.relatedTarget) document.body.classList.remove("dropping"); });
   document.addEventListener("drop", (event) => { event.preventDefault(); document.body.classList.remove("dropping"); if (event.dataTransfer.files[0]) dropFile(event.dataTransfer.files[0]); });
-  window.addEventListener("focus", () => { if (form && !flying && !dragging) ask(); }); // the file may have been changed meanwhile
+  window.addEventListener("focus", () => { if (form && !flying && !dragging && !study) ask(); }); // the file may have been changed meanwhile
   window.addEventListener("hashchange", () => { const read = readAddress(); if (!same(read, state) && read.file) openFile(read); });
   window.addEventListener("beforeprint", () => document.querySelectorAll("#answer details").forEach((one) => { one.wasOpen = one.open; one.open = true; }));
   window.addEventListener("afterprint", () => document.querySelectorAll("#answer details").forEach((one) => { one.open = one.wasOpen; }));
@@ -694,7 +727,7 @@ async function begin() {
   try {
     about = await post("/files", {});
   } catch (problem) {
-    showErrors(problem.errors ?? [{ path: "", message: String(problem) }]);
+    showErrors(errorsOf(problem));
     return;
   }
   $("units").replaceChildren(...about.systems.map((name) => make("button", { type: "button", value: name, "aria-pressed": "false", onclick: () => { state.units = name; reflect(); ask(); } }, name)));
