@@ -75,6 +75,8 @@ class Desk:
     def __init__(self, workbench: Workbench) -> None:
         self.workbench = workbench
         self._worker = ThreadPoolExecutor(1, thread_name_prefix="desk")
+        self._running: set[StopSignal] = set()
+        self._ended = False
         self._background: set[StopSignal] = set()
         self._studies: dict[str, StopSignal] = {}
 
@@ -88,10 +90,15 @@ class Desk:
             self.workbench.form(name)
             self.workbench.assess(self.workbench.file(name).conveyor, StopSignal())
 
+    def stop(self) -> None:
+        """Stop the calculations at their next step; their requests are answered at once."""
+        self._ended = True
+        for signal in tuple(self._running):
+            signal.stop()
+
     def close(self) -> None:
         """End the calculations."""
-        for signal in tuple(self._background):
-            signal.stop()
+        self.stop()
         self._worker.shutdown(wait=False, cancel_futures=True)
 
     def app(self) -> Starlette:
@@ -117,6 +124,7 @@ class Desk:
         Work of a page's first rank stops what runs in the background.
         """
         stop = StopSignal(seconds)
+        self._running.add(stop)
         if background:
             self._background.add(stop)
         else:
@@ -126,10 +134,14 @@ class Desk:
         try:
             while not running.done():
                 await asyncio.wait({running}, timeout=_WATCH_SECONDS)
+                if self._ended and not running.done():
+                    running.add_done_callback(_forget_answer)
+                    raise CalculationStopped
                 if not running.done() and await request.is_disconnected():
                     stop.stop()
             return running.result()
         finally:
+            self._running.discard(stop)
             self._background.discard(stop)
 
     async def _files(self, _: Request) -> Response:
@@ -354,6 +366,12 @@ def _checked_work(work: Callable[[StopSignal], T], stop: StopSignal) -> T:
     return work(stop)
 
 
+def _forget_answer(late: asyncio.Future[T]) -> None:
+    """Look at the end of a calculation that nobody waits for, or asyncio tells of it."""
+    if not late.cancelled():
+        late.exception()
+
+
 def _answer_errors(answer: Callable[[Request], Awaitable[Response]]) -> Callable[[Request], Awaitable[Response]]:
     """Wrap an answer: refusals become errors by field, stopped ones say so."""
 
@@ -375,6 +393,19 @@ def _error_list(error: ConveyorError) -> list[dict[str, str]]:
 
 async def _page_file(_: Request, name: str) -> Response:
     return FileResponse(_PAGE / name)
+
+
+class _Server(uvicorn.Server):
+    """A server that stops the calculations of its requests before it waits for these."""
+
+    def __init__(self, config: uvicorn.Config, desk: Desk) -> None:
+        super().__init__(config)
+        self._desk = desk
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """End as uvicorn does, without calculations that nobody waits for."""
+        self._desk.stop()
+        await super().shutdown(sockets)
 
 
 @dataclass
@@ -423,7 +454,7 @@ class DeskServer:
             server_header=False,
             timeout_graceful_shutdown=1,
         )
-        self._server = uvicorn.Server(config)
+        self._server = _Server(config, self._desk)
 
     def stop(self) -> None:
         """End `run` from another thread."""

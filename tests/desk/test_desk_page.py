@@ -190,6 +190,10 @@ def test_two_variants_stand_beside_each_other(page):
     assert "against A" in page.inner_text("[data-part=power]")
     verdicts = page.locator(".verdicts .stands")
     assert verdicts.count() == 2
+    page.click("text=Names")
+    page.fill("[aria-label='Name of variant B']", "slow")
+    page.press("[aria-label='Name of variant B']", "Enter")
+    wait_until(page, "document.querySelector('[data-part=verdict] .variant').textContent === 'slow'")
     page.click("text=Swap")
     wait_until(page, "!document.querySelector('[data-part=verdict] .fail')")
     wait_until(page, "!!document.querySelector('[data-part=verdict_beside] .fail')")

@@ -643,16 +643,25 @@ def test_it_listens_on_this_machine_only_and_takes_another_port_where_one_is_tak
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="SIGINT to another process")
-def test_ctrl_c_says_where_the_files_are(folder):
+def test_ctrl_c_says_where_the_files_are_and_nothing_else_while_it_calculates(folder):
+    import http.client
     import signal
 
     program = [sys.executable, "-m", "conveyor.cli", "desk", "overland.yaml", "--no-browser", "--port", "18991"]
     with subprocess.Popen(program, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         address = process.stdout.readline()
         assert address.startswith("desk: http://127.0.0.1:")
+        page = http.client.HTTPConnection("127.0.0.1", int(re.search(r":([0-9]+)/", address)[1]), timeout=60)
+        page.request("GET", "/open?" + address.strip().partition("?")[2])
+        opened = page.getresponse()
+        opened.read()
+        cookie = {"cookie": opened.getheader("set-cookie").partition(";")[0]}
+        study = json.dumps({"file": "overland.yaml", "changes": {}, "key": "starts", "id": "1"})
+        page.request("POST", "/further", study, cookie)
         time.sleep(1.0)
         process.send_signal(signal.SIGINT)
         said, errors = process.communicate(timeout=20)
+        page.close()
     assert f"what you saved is in {folder}" in said
     assert errors == ""
     assert process.returncode == 0
@@ -719,8 +728,18 @@ def test_the_year_of_a_variant_is_that_of_the_report(client, folder, desk):
     assert row.unit("SI").written(row.value) in part
 
 
-def test_starts_are_followed_through_time_and_each_tells_its_own_progress(desk, client):
+def test_starts_are_followed_through_time_and_each_tells_its_own_progress(desk, client, monkeypatch):
     parts, told = [], []
+    study = desk_server.study_part
+
+    def slowly(assessment, key, progress):
+        def step(*items):
+            progress(*items)
+            time.sleep(0.3)  # some looks at the progress
+
+        return study(assessment, key, step)
+
+    monkeypatch.setattr(desk_server, "study_part", slowly)
 
     def work():
         page = client_of(desk)

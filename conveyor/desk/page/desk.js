@@ -179,7 +179,8 @@ function nameVerdicts() {
     const node = document.querySelector(`[data-part=${part}]`);
     node.style.order = state.b ? rank : 0;
     const strong = node.querySelector("strong");
-    if (state.b && strong && !node.querySelector(".variant")) strong.before(make("span", { class: "variant" }, state.names[rank]));
+    node.querySelector(".variant")?.remove();
+    if (state.b) strong?.before(make("span", { class: "variant" }, state.names[rank]));
   }
   $("comparison").hidden = !state.b;
 }
