@@ -19,6 +19,9 @@ Integers = NDArray[np.int_]
 
 SPEED_POINTS = 65  # points of the motors' limits over speed
 
+_Number = TypeVar("_Number", np.float64, np.float32)
+
+
 _Belts = TypeVar("_Belts", "Chain", "Machines", "InitialState")
 
 
@@ -118,10 +121,64 @@ class Chain:
         pull = 2.0 * (np.pad(stiff, ((0, 0), (1, 0))) + np.pad(stiff, ((0, 0), (0, 1))))
         return np.asarray(2.0 / np.sqrt((pull / self.mass).max(axis=1)))
 
-    def resisting(self, speed: Array) -> Array:
-        """Friction of every mass at a speed [N]."""
-        size = np.minimum(np.abs(speed), self.known)
-        return np.asarray(self.friction[0] + size * (self.friction[1] + size * self.friction[2]))
+
+def friction_at_speed(friction: Array, speed: Array, known: float) -> Array:
+    """Friction f0 + f1 |v| + f2 v² at speeds [N], from its coefficients, shape (3, ...); constant beyond `known`."""
+    size = np.minimum(np.abs(speed), known)
+    force = np.asarray(size * friction[2])
+    force += friction[1]
+    force *= size
+    force += friction[0]
+    return force
+
+
+@dataclass(frozen=True, eq=False)
+class BeltRow:
+    """Masses of all belts in one row, m in all, each with the cell behind it; the last cell of a belt is its take-up.
+
+    Attributes
+    ----------
+    inside : ndarray of bool, shape (s, n + 1)
+        Masses of a chain that are not behind the end of their belt.
+    size, first, last : ndarray of int, shape (s,)
+        Masses of every belt, and where the first and the last of them are in the row.
+    """
+
+    inside: NDArray[np.bool_]
+    size: Integers
+    first: Integers
+    last: Integers
+
+    @classmethod
+    def of(cls, chain: Chain) -> BeltRow:
+        """The belts of a chain, one behind the other."""
+        size = chain.end + 1
+        last = np.cumsum(size) - 1
+        return cls(np.arange(chain.mass.shape[1]) <= chain.end[:, None], size, last - chain.end, last)
+
+    def masses(self, values: Array) -> Array:
+        """Values of masses in the row, from shape (..., s, n + 1) to (..., m)."""
+        return np.asarray(values[..., self.inside])
+
+    def cells(self, values: Array, take_up: float) -> Array:
+        """Values of cells in the row, from shape (s, n) to (m,), with one for the take-ups."""
+        made = np.pad(values, ((0, 0), (0, 1)))[self.inside]
+        made[self.last] = take_up
+        return np.asarray(made)
+
+    def each(self, values: Array) -> Array:
+        """Values of belts at all of their masses, from shape (s,) to (m,)."""
+        return np.repeat(values, self.size)
+
+    def sums(self, values: Array) -> Array:
+        """Sums over every belt, from shape (..., m) to (..., s)."""
+        return np.asarray(np.add.reduceat(values, self.first, axis=-1))
+
+    def padded(self, values: NDArray[_Number]) -> NDArray[_Number]:
+        """Values of the row as those of a chain, 0 behind the end of a belt, from shape (..., m) to (..., s, n + 1)."""
+        made = np.zeros((*values.shape[:-1], *self.inside.shape), values.dtype)
+        made[..., self.inside] = values
+        return made
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,17 +17,27 @@ from __future__ import annotations
 
 import numpy as np
 
-from conveyor.dynamics.belt_chain import Array, Chain, InitialState, Integers, Machines, Record
+from conveyor.dynamics.belt_chain import (
+    Array,
+    BeltRow,
+    Chain,
+    InitialState,
+    Integers,
+    Machines,
+    Record,
+    friction_at_speed,
+)
 from conveyor.dynamics.wave_pulleys import (
     DriveGroup,
     GroupResponse,
+    group_drives,
     motor_lines,
     solve_pulleys,
     speed_after_friction,
     winch_direction,
 )
 from conveyor.dynamics.wave_record import BESIDE, MotionRecord, stored_energy
-from conveyor.dynamics.wave_solver import BeltLaw, WaveSolver, add_impulses
+from conveyor.dynamics.wave_solver import NO_CELL, BeltLaw, StepPlaces, WaveSolver
 from conveyor.errors import NoSolutionError
 
 
@@ -78,171 +88,200 @@ class _Motion:
     ) -> None:
         self.chain, self.machines, self.dt = chain, machines, step[:, None]
         self.lasts: list[int] = lasts.tolist()
-        self.solver, self.law = WaveSolver(chain, self.dt), BeltLaw(chain, self.dt, start.tension)
+        self.row = row = BeltRow.of(chain)
+        self.places = places = StepPlaces.of(chain, row)
+        self.law = BeltLaw(chain, row, step, start.tension)
+        self.solver = WaveSolver(chain, row, places, step)
         self.solver.update_damping(self.law.eased)
-        self.record = MotionRecord(chain, start, self.law, step=step, lasts=lasts, samples=samples)
         self.motors = motor_lines(chain, machines, self.dt)
         self._set_up()
-        self._answered()
-        self.speed, self.tension = start.speed, start.tension
-        self.stretching = np.diff(start.speed, axis=1)
+        self.speed, self.tension = row.masses(start.speed), self.law.tension
+        self.stretching = np.append(np.diff(self.speed), 0.0)
         self.viscous = self.tau_k * self.law.eased * self.stretching
-        self.strained = np.empty((chain.end.size, chain.mass.shape[1] + 1))
-        self.resisting = start.resisting * self.loose
+        resisting = row.masses(start.resisting)
+        self.rubbing = resisting[self.at]
+        self.resisting = resisting * self.loose
+        self.record = MotionRecord(chain, row, start, self.law, step=step, lasts=lasts, samples=samples)
         self.driving, self.rims = start.driving, start.rims
         self.slipped = np.zeros(chain.nodes.shape, dtype=bool)
-        self.rubbing = start.resisting[self.rows, self.at]
-        self.on_pulleys = start.speed[self.rows, self.at]  # exactly 0 at rest, which rounding in the solver would blur
-        self.lumps_rest = start.speed[self.rows, chain.lumps] == 0.0
+        self.on_pulleys = self.speed[self.at]  # exactly 0 at rest, which rounding in the solver would blur
+        self.lumps_rest = self.speed[self.lumps] == 0.0
         self.pulled, self.winding = chain.held, np.zeros(chain.end.size)
 
     def _set_up(self) -> None:
         """Set constants: places, compliances, friction at rest."""
-        chain, step, n = self.chain, self.dt, self.chain.stiffness.shape[1]
-        self.one, self.rows = np.arange(chain.end.size), np.arange(chain.end.size)[:, None]
-        self.at = at = chain.nodes
-        self.loose = np.ones_like(chain.mass)
-        self.loose[self.rows, at] = 0.0  # friction there belongs to the pulley
-        self.pulse = np.where(np.arange(n + 1) <= chain.end[:, None], step, 0.0)
+        chain, row, step, places = self.chain, self.row, self.dt, self.places
+        self.at, self.lumps = places.near[:, places.of_drives], places.near[:, places.of_lumps]
+        self.loose = np.ones(row.last[-1] + 1)
+        self.loose[self.at] = 0.0  # friction there belongs to the pulley
         alone = self.loose.copy()
-        alone[self.rows, chain.lumps] = 0.0
-        self.over_mass, self.under_mass = alone * step / chain.mass, alone * chain.mass / step
-        self.sinking, self.still = -chain.weight, chain.sticking * self.over_mass
-        self.lumps = self.rows * (n + 1) + chain.lumps
-        self.lumps_loose, self.lumps_stuck = self.loose.take(self.lumps), chain.sticking.take(self.lumps)
+        alone[self.lumps] = 0.0
+        mass, sticking = row.masses(chain.mass), row.masses(chain.sticking)
+        self.each_dt = row.each(step[:, 0])
+        self.over_mass, self.under_mass = alone * self.each_dt / mass, alone * mass / self.each_dt
+        self.still = sticking * self.over_mass
+        self.outside = -row.masses(chain.weight)
+        self.outside[row.first] -= chain.held - NO_CELL
+        self.outside[row.last] += chain.held - NO_CELL
+        self.friction = row.masses(chain.friction)
+        self.lumps_loose, self.lumps_stuck = self.loose[self.lumps], sticking[self.lumps]
         self.winds = bool(np.any(chain.winch[0]))
-        self.tau_k = chain.retardation * chain.stiffness
-        self.flat = self.rows * (n + 1) + at
-        self.behind = self.one * (n + 2) + chain.end + 1
-        self.turns = [DriveGroup.of(chain, self.machines, self.motors, step, k) for k in self.solver.pulleys.turns()]
+        self.tau_k = chain.retardation * row.cells(chain.stiffness, 0.0)
+        self.turns = [DriveGroup.of(chain, row, self.machines, step, k) for k in group_drives(self.solver)]
+        self._answered()
 
     def _answered(self) -> None:
         """Update the responses of the pulleys after a factorisation."""
         self.half_k = 0.5 * self.tau_k * self.solver.shares
         self.replies = [GroupResponse.of(self.solver, turn, self.dt) for turn in self.turns]
-        self.lumps_reach = self.dt * self.solver.lumps.own
+        lumps = self.places.lumps
+        self.lumps_own = np.einsum("sll->sl", self.solver.reach[:, :lumps, :lumps])
+        self.lumps_reach = self.dt * self.lumps_own
 
     def followed(self) -> Record:
         """Take every step."""
-        self._strain(self.tension)
         self.beside = np.empty((2, *self.at.shape))
         for turn in self.turns:
             k = turn.drives
             _, shares = turn.belt_friction(self.on_pulleys[:, k])
-            self.beside[:, :, k] = self.strained.take(turn.strained) + turn.lying + shares * self.rubbing[:, k]
+            self.beside[:, :, k] = self.tension.take(turn.cells, mode="wrap") + turn.lying + shares * self.rubbing[:, k]
         beside = self.beside
         for i in range(self.lasts[0]):
-            if i == self.lasts[len(self.speed) - 1]:
+            if i == self.lasts[len(self.dt) - 1]:
                 self._end_belts(sum(last > i for last in self.lasts))
             self._step(i)
-        self.record.end_belts(0, stored_energy(self.chain, self.speed, self.rims, self.law))
+        self.record.end_belts(0, stored_energy(self.chain, self.row, self.speed, self.rims, self.law))
         return self.record.closed(beside)
 
     def _end_belts(self, count: int) -> None:
         """Go on with the first belts only."""
-        self.record.end_belts(count, stored_energy(self.chain, self.speed, self.rims, self.law))
-        first = slice(count)
-        self.chain, self.machines = self.chain.of_belts(first), self.machines.of_belts(first)
-        beside, self.motors = self.beside[:, first], self.motors[:, :, first]
-        for name, value in vars(self).items():
-            if isinstance(value, np.ndarray) and name != "motors":
-                setattr(self, name, value[first])
-        self.beside = beside
-        self.law.drop_belts(count)
-        self.solver = WaveSolver(self.chain, self.dt, self.solver.shares[first])
+        self.record.end_belts(count, stored_energy(self.chain, self.row, self.speed, self.rims, self.law))
+        belts, masses = slice(count), slice(self.row.last[count - 1] + 1)
+        self.chain, self.machines = self.chain.of_belts(belts), self.machines.of_belts(belts)
+        self.dt, self.motors = self.dt[belts], self.motors[:, :, belts]
+        self.driving, self.rims, self.rubbing = self.driving[belts], self.rims[belts], self.rubbing[belts]
+        self.slipped, self.on_pulleys, self.beside = self.slipped[belts], self.on_pulleys[belts], self.beside[:, belts]
+        self.lumps_rest, self.pulled, self.winding = self.lumps_rest[belts], self.pulled[belts], self.winding[belts]
+        self.speed, self.resisting = self.speed[masses].copy(), self.resisting[masses].copy()
+        self.tension, self.viscous, self.stretching = (
+            self.tension[masses], self.viscous[masses], self.stretching[masses]
+        )  # fmt: skip
+        self.row = BeltRow.of(self.chain)
+        self.places = StepPlaces.of(self.chain, self.row)
+        self.law.drop_belts(self.row)
+        self.solver = WaveSolver(self.chain, self.row, self.places, self.dt[:, 0], self.solver.middle[masses])
         self._set_up()
-        self._answered()
 
     def _step(self, i: int) -> None:
         """Advance speeds by forces, pulleys and friction, then tensions by speeds."""
-        chain = self.chain
+        chain, speed, last = self.chain, self.speed, self.stretching
         if self.winds:
-            speed, band, run_up = chain.winch
+            inward, band, run_up = chain.winch
             wanted, most = (
-                speed * winch_direction(self.pulled / chain.held - 1.0, band),
-                self.dt[:, 0] * speed / run_up,
+                inward * winch_direction(self.pulled / chain.held - 1.0, band),
+                self.dt[:, 0] * inward / run_up,
             )
             self.winding = np.clip(wanted, self.winding - most, self.winding + most)
         if self.solver.update_damping(self.law.eased):
             self._answered()
+        shown, new, resisting, damping = self.record.step_rows()
         pushed = self.driving - self.rubbing
-        change, lacking = self.solver.change(self._impulse(pushed), self.speed, self.winding)
-        new, rolling = self.speed + change, chain.resisting(self.speed)
-        new, lacking, lumped = self._rubbed(new, lacking, rolling)
-        if self.at.size:
-            new, lacking = self._driven(i, new, lacking, pushed)
+        strained = np.add(self.tension, self.viscous, out=shown)
+        allowed = friction_at_speed(self.friction, speed, chain.known)
+        new += self._impulses_spread(i, strained, pushed, allowed)
         # damping: the solver's share of τ k on half the new speeds, before single masses rub, the rest on the old
-        damping = self.viscous + self.half_k * (new[:, 1:] - new[:, :-1] - self.stretching)
-        free = new + self.resisting * self.over_mass
-        allowed = rolling * self.over_mass
-        np.copyto(allowed, self.still, where=self.speed == 0.0)
-        rubbed = np.minimum(np.maximum(free, -allowed), allowed)
-        new = free - rubbed
-        self.resisting = rubbed * self.under_mass
-        self.resisting[self.rows, chain.lumps] = lumped
-        self.pulled = chain.held - lacking / self.dt[:, 0]
-        shown = self.tension + damping
+        np.subtract(new[1:], new[:-1], out=damping[:-1])
+        damping[-1] = 0.0
+        damping -= last
+        damping *= self.half_k
+        damping += self.viscous
+        np.add(self.tension, damping, out=shown)
         if self.law.relaxes:
-            damping = damping + self.law.branch
-        self.record.keep(i, tension=shown, speed=new, pulled=self.pulled, friction=self.resisting, damping=damping)
-        self.speed, self.stretching = new, new[:, 1:] - new[:, :-1]
-        self.tension = self.law.stretch(self.stretching)
-        self.viscous = self.tau_k * self.law.eased * self.stretching
+            damping += self.law.branch
+        allowed *= self.over_mass
+        np.copyto(allowed, self.still, where=speed == 0.0)
+        free = self.resisting * self.over_mass
+        free += new
+        rubbed = np.maximum(free, -allowed)
+        np.minimum(rubbed, allowed, out=rubbed)
+        np.subtract(free, rubbed, out=new)
+        np.multiply(rubbed, self.under_mass, out=resisting)
+        resisting[self.lumps] = self.lumped
+        self.record.keep(i, pulled=self.pulled)
+        self.speed, self.resisting = new, resisting
+        self.stretching = stretching = np.zeros_like(last)
+        np.subtract(new[1:], new[:-1], out=stretching[:-1])
+        self.tension = self.law.stretch(stretching)
+        self.viscous = self.tau_k * stretching
+        self.viscous *= self.law.eased
 
-    def _strain(self, tension: Array) -> None:
-        """Set the tensions of the cells between those of the take-up at both ends."""
-        self.strained[:, 1:-1] = tension
-        self.strained[:, 0] = self.chain.held
-        self.strained.reshape(-1)[self.behind] = self.chain.held
-
-    def _impulse(self, pushed: Array) -> Array:
+    def _impulse(self, strained: Array, pushed: Array) -> Array:
         """Impulse on every mass over a step, with the last friction and these forces on driven masses."""
-        self._strain(self.tension + self.viscous)
-        acting = self.sinking - self.resisting
-        acting -= self.strained[:, :-1]
-        acting += self.strained[:, 1:]
-        acting.reshape(-1)[self.flat] += pushed
-        acting *= self.pulse
-        return acting
+        acting = self.outside - self.resisting
+        acting += strained
+        acting[1:] -= strained[:-1]
+        acting[0] -= NO_CELL
+        acting[self.at] += pushed
+        acting *= self.each_dt
+        return np.asarray(acting)
 
-    def _driven(self, i: int, new: Array, lacking: Array, pushed: Array) -> tuple[Array, Array]:
-        """Speeds with new pulley forces, in turn for coupled pulleys, and the impulse lacking at the take-up."""
-        impulse, record = self.dt * pushed, self.record.drives[i, :, : len(new)]
+    def _impulses_spread(self, i: int, strained: Array, pushed: Array, rolling: Array) -> Array:
+        """Change of all speeds over a step, before single masses rub: by all forces, lumps, pulleys and take-up."""
+        solver, lumps = self.solver, self.places.lumps
+        change = solver.respond(self._impulse(strained, pushed))
+        lacking = solver.lacking(change, self.speed, self.winding)
+        near = change.take(self.places.near) - solver.pair * lacking[:, None]
+        impulses = np.empty(self.places.acting.shape)
+        impulses[:, 2 : 2 + lumps], lacking = self._rub_lumps(near, lacking, rolling)
+        if self.at.size:
+            impulses[:, 2 + lumps :], lacking = self._drive(i, near, lacking, strained=strained, pushed=pushed)
+        self.pulled = self.chain.held - lacking / self.dt[:, 0]
+        impulses[:, 0], impulses[:, 1] = lacking, -lacking
+        change += solver.spread(impulses)
+        return change
+
+    def _rub_lumps(self, near: Array, lacking: Array, rolling: Array) -> tuple[Array, Array]:
+        """Impulses of the lumps' friction, in turn, and what lacks at the take-up; speeds near them are moved."""
+        earlier, solver = self.resisting.take(self.lumps), self.solver
+        most = self.lumps_loose * np.where(self.lumps_rest, self.lumps_stuck, rolling.take(self.lumps))
+        free, allowed, going = self.lumps_reach * earlier, self.lumps_reach * most, self.speed.take(self.lumps)
+        impulses = np.empty_like(most)
+        for j in range(self.places.lumps):
+            speed = going[:, j] + near[:, j]
+            left = speed_after_friction(speed + free[:, j], allowed[:, j], allowed[:, j])
+            self.lumps_rest[:, j] = left == 0.0
+            impulses[:, j] = by = (left - speed) / self.lumps_own[:, j]
+            near += by[:, None] * solver.reach[:, j]
+        self.lumped = earlier - impulses / self.dt
+        return impulses, lacking + np.vecdot(impulses, solver.of_take_up[:, : self.places.lumps])
+
+    def _drive(
+        self, i: int, near: Array, lacking: Array, *, strained: Array, pushed: Array
+    ) -> tuple[Array, Array]:  # fmt: skip
+        """Impulses of the pulleys, in turn if they are coupled, and what lacks at the take-up then."""
+        lumps, drives = self.places.lumps, self.places.drives
+        impulses, record = np.empty(pushed.shape), self.record.drives[i, :, : len(near)]
         beside, (force, motor, rim, belt, _, _, holding, rubbing, before) = record[BESIDE], record
-        before[:] = self.speed.take(self.flat)
+        before[:] = self.speed.take(self.at)
+        motors, near = self.motors[i], near[:, lumps:].reshape(-1, 3, drives)
         for turn, reply in zip(self.turns, self.replies, strict=True):
-            k, places = turn.drives, new.take(turn.places)
-            going, on = places[0], self.on_pulleys[:, k]
-            faster = places[1:3] - places[3:] - self.stretching.take(turn.cells)
-            cells = self.strained.take(turn.strained) + reply.softer * faster - turn.ends * (lacking[:, None] / self.dt)
+            k = turn.drives
+            at = near[:, :, k].transpose(1, 0, 2)
+            going, on = before[:, k] + at[1], self.on_pulleys[:, k]
+            cells = strained.take(turn.cells, mode="wrap") + reply.softer * (at[1:] - at[:-1])
+            cells += turn.lying - turn.ends * (lacking[:, None] / self.dt) - turn.inert * on - reply.gives * going
             friction, shares = turn.belt_friction(on)
             moved = solve_pulleys(
-                turn, i, step=self.dt, answer=reply.own, reach=reply.reach, rim=self.rims[:, k],
-                free=going - reply.own * impulse[:, k],
-                sides=cells + turn.lying + turn.inert * (going - on) - reply.yields * going,
-                yields=reply.yields, friction=friction, shares=shares,
-                last=(self.driving[:, k], self.beside[:, :, k]), slipped=self.slipped[:, k],
+                turn, motors[:, :, k], step=self.dt, answer=reply.own, reach=reply.reach, rim=self.rims[:, k],
+                free=going - reply.reach * pushed[:, k], sides=cells, yields=reply.yields, friction=friction,
+                shares=shares, last=(self.driving[:, k], self.beside[:, :, k]), slipped=self.slipped[:, k],
             )  # fmt: skip
             force[:, k], motor[:, k], rim[:, k], belt[:, k] = moved.force, moved.motor, moved.rim, moved.belt
             holding[:, k], rubbing[:, k] = moved.holding, moved.friction
             beside[:, :, k], self.slipped[:, k] = moved.sides, moved.slips
-            new, lacking = add_impulses((moved.belt - going) / reply.own, reply.columns, reply.of_take_up, new, lacking)
+            impulses[:, k] = by = (moved.belt - going) / reply.own
+            lacking = lacking + np.vecdot(by, reply.of_take_up)
+            if len(self.turns) > 1:
+                near += np.vecmat(by, reply.near).reshape(near.shape)
         self.driving, self.rubbing, self.rims, self.on_pulleys, self.beside = force, rubbing, rim, belt, beside
-        return new, lacking
-
-    def _rubbed(self, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array, Array]:
-        """Speeds with the lumps' friction, in turn, the impulse lacking at the take-up, and the friction."""
-        at, answer = self.lumps, self.solver.lumps
-        if not at.size:
-            return new, lacking, np.zeros(at.shape)
-        earlier, speed = self.resisting.take(at), new.take(at)
-        most = self.lumps_loose * np.where(self.lumps_rest, self.lumps_stuck, rolling.take(at))
-        free, allowed = self.lumps_reach * earlier, self.lumps_reach * most
-        impulse = np.empty_like(most)
-        for j in range(at.shape[1]):
-            left = speed_after_friction(speed[:, j] + free[:, j], allowed[:, j], allowed[:, j])
-            self.lumps_rest[:, j] = left == 0.0
-            impulse[:, j] = (left - speed[:, j]) / answer.own[:, j]
-            if j + 1 < at.shape[1]:
-                speed = speed + impulse[:, j, None] * answer.mutual[:, j]
-        return *answer.moved(impulse, new, lacking), earlier - impulse / self.dt
+        return impulses, lacking

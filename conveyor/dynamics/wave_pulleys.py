@@ -8,17 +8,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.dynamics.belt_chain import Array, Chain, Integers, Machines
-from conveyor.dynamics.wave_solver import WaveSolver
+from conveyor.dynamics.belt_chain import Array, BeltRow, Chain, Integers, Machines, friction_at_speed
+from conveyor.dynamics.wave_solver import NO_CELL, WaveSolver
 
-_SIDES, _FROM = (
-    np.array([1.0, -1.0])[:, None, None],
-    np.array([0.0, 1.0])[:, None, None],
-)  # before and behind a pulley
+_SIDES = np.array([1.0, -1.0])[:, None, None]  # before and behind a pulley
+
+
+_FROM = np.array([0.0, 1.0])[:, None, None]
 
 
 def motor_lines(chain: Chain, machines: Machines, step: Array) -> Array:
-    """Motors and brakes on their characteristics at every step, shape (6, steps, s, d).
+    """Motors and brakes on their characteristics at every step, shape (steps, 6, s, d).
 
     Share of the limit, brake force, motor force at a standing rim, its fall by the speed at the begin and at the end of
     the step, rim mass with the latter. A rim meets its motor's characteristic in the middle of a step while that
@@ -30,26 +30,39 @@ def motor_lines(chain: Chain, machines: Machines, step: Array) -> Array:
     later = late * slope
     return np.stack([
         machines.share, machines.brake, slope * machines.reference, slope - later, later, chain.rim + step * later
-    ])  # fmt: skip
+    ], axis=1)  # fmt: skip
+
+
+def group_drives(solver: WaveSolver) -> list[list[int]]:
+    """Groups of drives that do not move each other, to rounding."""
+    places = solver.places
+    mutual = solver.reach[:, places.lumps :, places.of_drives]
+    own = np.einsum("sdd->sd", mutual)
+    coupled = np.any(np.abs(mutual) > np.finfo(float).eps * own[:, None], axis=0)
+    groups: list[list[int]] = []
+    for j in range(len(coupled)):
+        for group in groups:
+            if not (coupled[j, group].any() or coupled[group, j].any()):
+                group.append(j)
+                break
+        else:
+            groups.append([j])
+    return groups
 
 
 @dataclass(frozen=True, eq=False)
 class DriveGroup:
     """Constants of drives that are solved together; shape (2, s, d) for both sides, negative behind.
 
-    Flat indices: `places` of their masses and of those after and before both adjacent cells, shape (5, s, d); `cells`
-    of the adjacent cells, `strained` with the take-up at both ends. `ends` is 1 next to the take-up. `reverse` is
-    infinite at a backstop, else 0.
+    `cells` are both adjacent cells in the row; `ends` is 1 next to the take-up. `reverse` is infinite at a backstop,
+    else 0.
     """
 
     drives: list[int] | slice
     machines: Machines
-    motors: Array
     rim: Array
     grip: Array
-    places: Integers
     cells: Integers
-    strained: Integers
     ends: Array
     lying: Array
     inert: Array
@@ -60,24 +73,20 @@ class DriveGroup:
     reverse: Array
 
     @classmethod
-    def of(cls, chain: Chain, machines: Machines, motors: Array, step: Array, k: list[int]) -> DriveGroup:
+    def of(cls, chain: Chain, row: BeltRow, machines: Machines, step: Array, k: list[int]) -> DriveGroup:
         """Some drives of every belt."""
         drives: list[int] | slice = slice(None) if len(k) == chain.nodes.shape[1] else k
-        (s, n), at, before = chain.stiffness.shape, chain.nodes[:, drives], chain.before[:, :, drives]
-        rows = np.arange(s)[:, None]
-        side = np.stack([np.maximum(at - 1, 0), np.minimum(at, n - 1)])
-        astern = rows * (n + 1) + side
+        at, before, rows = chain.nodes[:, drives], chain.before[:, :, drives], np.arange(chain.end.size)[:, None]
         weight, mass, stuck = chain.weight[rows, at], chain.mass[rows, at], chain.sticking[rows, at]
+        ends = np.stack([at == 0, at == chain.end[:, None]]).astype(float)
+        cells = row.first[:, None] + np.stack([at - 1, at])
         return cls(
             drives,
             replace(machines, limits=machines.limits[:, drives], drag=machines.drag[:, drives]),
-            motors[..., drives], chain.rim[:, drives], chain.grip[:, drives],
-            places=np.concatenate([(rows * (n + 1) + at)[None], astern + 1, astern]),
-            cells=rows * n + side, strained=rows * (n + 2) + np.stack([at, at + 1]),
-            ends=np.stack([at == 0, at == chain.end[:, None]]).astype(float),
-            lying=np.stack([before[1], before[1] - weight]),
+            chain.rim[:, drives], chain.grip[:, drives], cells=cells, ends=ends,
+            lying=np.stack([before[1], before[1] - weight]) + ends * (chain.held[:, None] - NO_CELL),
             inert=np.stack([before[0], before[0] - mass]) / step,
-            tau_k=chain.retardation * chain.stiffness[rows, side],
+            tau_k=chain.retardation * row.cells(chain.stiffness, 0.0)[cells],
             friction=np.stack([before[2:5], chain.friction[:, rows, at]], axis=1),
             at_rest=np.stack([_safe_ratio(before[5], stuck), stuck]), known=chain.known,
             reverse=np.where(chain.backstop[:, drives], np.inf, 0.0),
@@ -85,8 +94,7 @@ class DriveGroup:
 
     def belt_friction(self, on: Array) -> tuple[Array, Array]:
         """Friction on driven masses at their speed [N]; its share before the pulleys, and behind them negative [-]."""
-        size = np.minimum(np.abs(on), self.known)
-        friction = self.friction[0] + size * (self.friction[1] + size * self.friction[2])
+        friction = friction_at_speed(self.friction, on, self.known)
         friction[0] = _safe_ratio(friction[0], friction[1])
         np.copyto(friction, self.at_rest, where=on == 0.0)
         return friction[1], friction[0] - _FROM
@@ -101,26 +109,30 @@ def _safe_ratio(part: Array, whole: Array) -> Array:
 class GroupResponse:
     """Response of the belts to a group of drives: speeds by an impulse, damping and adjacent tensions by a speed.
 
-    `reach` is the speed by a force over the step, `softer` the damping at new speeds, `yields` the tension added by a
-    speed, before, and behind negative.
+    `reach` is the speed by a force over the step, `near` those before, at and behind all drives by an impulse, `softer`
+    the damping at new speeds, `gives` the tension added by a speed, before, and behind negative, `yields` the same with
+    what lies on the pulley.
     """
 
     own: Array
     reach: Array
-    columns: Array
+    near: Array
     of_take_up: Array
     softer: Array
+    gives: Array
     yields: Array
 
     @classmethod
     def of(cls, solver: WaveSolver, turn: DriveGroup, step: Array) -> GroupResponse:
         """Response of the present system."""
-        k, pulleys = turn.drives, solver.pulleys
-        own, of_take_up = pulleys.own[:, k], pulleys.of_take_up[:, k]
-        reach, apart = own * step, pulleys.beside[:, :, k] * _SIDES
-        softer = 0.5 * turn.tau_k * solver.shares.take(turn.cells) * (1.0 - turn.ends)
-        yields = turn.inert + softer * apart - turn.ends * (of_take_up / reach)
-        return cls(own, reach, pulleys.columns[:, k], of_take_up, softer, yields)
+        places = solver.places
+        lumps, drives, k = places.lumps, places.drives, np.arange(places.drives)[turn.drives]
+        near, of_take_up = solver.reach[:, lumps + k, lumps:], solver.of_take_up[:, lumps + k]
+        before, own, behind = (near[:, np.arange(k.size), side * drives + k] for side in range(3))
+        reach, apart = own * step, _SIDES * (1.0 - np.stack([before, behind]) / own)
+        softer = 0.5 * turn.tau_k * solver.shares.take(turn.cells, mode="wrap")
+        gives = softer * apart - turn.ends * (of_take_up / reach)
+        return cls(own, reach, near, of_take_up, softer, gives, turn.inert + gives)
 
 
 def winch_direction(over: Array, band: Array) -> Array:
@@ -147,7 +159,7 @@ def speed_after_friction(free: Array, forward: Array, backward: Array) -> Array:
 
 
 def solve_pulleys(
-    turn: DriveGroup, i: int, *, step: Array, answer: Array, reach: Array, rim: Array, free: Array, sides: Array,
+    turn: DriveGroup, motors: Array, *, step: Array, answer: Array, reach: Array, rim: Array, free: Array, sides: Array,
     yields: Array, friction: Array, shares: Array, last: tuple[Array, Array], slipped: NDArray[np.bool_],
 ) -> PulleyState:  # fmt: skip
     """Solve motors, brakes, rims and the belt on them together; a motor on its characteristic, or at its limit.
@@ -160,7 +172,7 @@ def solve_pulleys(
     ones. At the start of the step they would make the tension oscillate from cell to cell.
     """
     grip = turn.grip
-    share, brake, base, early, later, mass = turn.motors[:, i]
+    share, brake, base, early, later, mass = motors
     most, rests = share * turn.machines.limit(rim), reach * friction
     halts = reach * brake + rests
     for tried in range(2):
@@ -177,7 +189,7 @@ def solve_pulleys(
         forward, slips = force > bears[1], force < -bears[0]
         slips |= forward
         belt, turned = common, common
-        if slips.any():
+        if np.count_nonzero(slips):
             pushed, slack = np.where(forward, rubbed[1], -rubbed[0]), np.where(forward, -yields[1], yields[0])
             eased = 1.0 + reach * grip * slack
             rub = rests / eased
@@ -196,7 +208,7 @@ def solve_pulleys(
             tensions = np.where(begins, 2.0 * tensions - last[1], tensions)
         motor = base_now - later * turned
         beyond = np.abs(motor) > most
-        if tried or not beyond.any():
+        if tried or not np.count_nonzero(beyond):
             break
         base, within = np.where(beyond, np.copysign(most, motor), base), ~beyond
         early, later = early * within, later * within
