@@ -73,6 +73,22 @@ class ScenarioResult:
         """Lowest tension [N]."""
         return float(self.record.lowest.min())
 
+    @cached_property
+    def jump(self) -> float | None:
+        """Lowest tension at a pulley less that in the cell beside it, if it falls there at once, else None [N].
+
+        It does if the largest fall within a step ends closer to the lowest tension than it is long.
+        """
+        cell = int(self.record.lowest.argmin())
+        for d, node in enumerate(self.cells.nodes.tolist()):
+            if cell in {node - 1, node}:
+                tension = self.record.drives["leaving" if cell == node else "arriving"][:, d]
+                fall = tension[:-1] - tension[1:]
+                i = int(fall.argmax())
+                if tension[i + 1] - self.lowest < fall[i]:
+                    return float(tension.min()) - self.lowest
+        return None
+
     def place(self, i: int) -> str:
         """Section and strand of a cell."""
         return self._words(float(self.middles[i]))

@@ -63,15 +63,16 @@ _ResultOrRefusal: TypeAlias = ScenarioResult | ScenarioRefusal
 
 
 class _Peaks(NamedTuple):
-    """Peak tensions of a scenario at a cell size [N, s]."""
+    """Peak tensions of a scenario at a cell size, and the lowest's jump as in `ScenarioResult` [N, s]."""
 
     highest: float
     lowest: float
     step: float
+    jump: float | None = None
 
     @classmethod
     def of(cls, one: ScenarioResult) -> Self:
-        return cls(one.highest, one.lowest, float(one.record.step))
+        return cls(one.highest, one.lowest, float(one.record.step), one.jump)
 
 
 @dataclass(frozen=True, eq=False)
@@ -253,21 +254,25 @@ def _peak_error(peaks: Sequence[_Peaks]) -> float | None:
     """Error of the last peaks over the highest [-], from their changes as cells were halved; None for fewer than four.
 
     Grid convergence index with the observed order, at most the first: a change may be small by chance, so it counts at
-    least half the previous one. A change of opposite sign shows no order and counts like the previous one.
+    least half the previous one. A change of opposite sign shows no order and counts like the previous one. A lowest
+    tension that comes at once converges with order 1/2, however its changes fall; the belt beside the pulley may swing
+    from cell to cell, below the tension at the pulley itself.
     """
     if len(peaks) < _SIZES:
         return None
-    errors = []
-    for tension in list(zip(*peaks[-_SIZES:], strict=True))[:2]:
+    errors: list[float] = []
+    jump = peaks[-1].jump
+    for k, tension in enumerate(list(zip(*peaks[-_SIZES:], strict=True))[:2]):
+        at_once = k == 1 and jump is not None
         changes = [fine - coarse for coarse, fine in itertools.pairwise(tension)]
         before, change = 0.0, abs(changes[0])
         for now in changes[1:]:
-            before, change = change, max(abs(now), change / _FASTEST)
-        if changes[-2] * changes[-1] < 0.0:
+            before, change = change, max(abs(now), change / (_SLOWEST if at_once else _FASTEST))
+        if changes[-2] * changes[-1] < 0.0 and not at_once:
             errors.append(_SAFETY * max(change, abs(changes[-2])))
         elif change > 0.0:
             errors.append(_SAFETY * change / (max(before / change, _SLOWEST) - 1.0))
-    return max(errors, default=0.0) / peaks[-1].highest
+    return max([*errors, jump or 0.0]) / peaks[-1].highest
 
 
 def _unconverged_refusal(one: ScenarioResult, peaks: Sequence[_Peaks]) -> ScenarioRefusal:
@@ -283,7 +288,7 @@ def _unconverged_refusal(one: ScenarioResult, peaks: Sequence[_Peaks]) -> Scenar
         else "shorter cells bring them no closer, a larger error would only hide it: look for what jumps there, as a "
         "winch with hardly any run-up or a drive of hardly any mass"
     )
-    figures = zip((*coarse, *fine), 2 * ("force", "force", "time"), strict=True)
+    figures = zip((*coarse[:3], *fine[:3]), 2 * ("force", "force", "time"), strict=True)
     return ScenarioRefusal(one.name, message(
         "highest and lowest tension are {} and {} at steps of {}, {} and {} at steps of {}: an error of "
         f"{percent(error, 1)} of the highest, most in {escape_braces(one.place(i))} after {at:.1f} s; {helps}", *figures

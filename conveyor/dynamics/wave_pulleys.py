@@ -125,11 +125,11 @@ class GroupResponse:
     @classmethod
     def of(cls, solver: WaveSolver, turn: DriveGroup, step: Array) -> GroupResponse:
         """Response of the present system."""
-        places = solver.places
-        lumps, drives, k = places.lumps, places.drives, np.arange(places.drives)[turn.drives]
-        near, of_take_up = solver.reach[:, lumps + k, lumps:], solver.of_take_up[:, lumps + k]
-        before, own, behind = (near[:, np.arange(k.size), side * drives + k] for side in range(3))
-        reach, apart = own * step, _SIDES * (1.0 - np.stack([before, behind]) / own)
+        lumps, drives, k = solver.places.lumps, solver.places.drives, turn.drives
+        near, of_take_up = solver.reach[:, lumps:, lumps:][:, k], solver.of_take_up[:, lumps:][:, k]
+        sides = np.einsum("sdkd->ksd", near.reshape(*near.shape[:2], 3, drives)[..., k])
+        own = sides[1]
+        reach, apart = own * step, _SIDES * (1.0 - sides[::2] / own)
         softer = 0.5 * turn.tau_k * solver.shares.take(turn.cells, mode="wrap")
         gives = softer * apart - turn.ends * (of_take_up / reach)
         return cls(own, reach, near, of_take_up, softer, gives, turn.inert + gives)

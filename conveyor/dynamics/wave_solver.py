@@ -178,23 +178,23 @@ class WaveSolver:
     def _factorise(self, belts: NDArray[np.bool_], shares: Array) -> None:
         """Factorise the system of some belts with these shares of k, and find its responses."""
         row, places = self.row, self.places
-        inside = np.repeat(belts, row.size)
-        shares = np.minimum(shares[inside] + 0.5 * _SHARE, 1.0)
+        inside = np.flatnonzero(np.repeat(belts, row.size))
+        shares = np.minimum(shares.take(inside) + 0.5 * _SHARE, 1.0)
         self.shares[inside], self.middle[inside] = shares, shares - 0.5 * _SHARE
         self.middle[row.last] = 1.0  # the share of take-ups, which never changes
-        damping = self.damping[inside] * shares
-        diagonal = self.mass[inside] + damping
+        damping = self.damping.take(inside) * shares
+        diagonal = self.mass.take(inside) + damping
         diagonal[1:] += damping[:-1]
         lower, off, info = dpttrf(diagonal, -damping[:-1])
         if info != 0:
             raise NoSolutionError("the masses of the belt must be positive")
         self.lower[inside], self.off[inside] = lower, np.append(off, 0.0)
-        apart = np.cumsum(inside) - 1  # place among those of these belts
-        acting, near = apart[places.acting[belts]], apart[places.near[belts]]
+        before = (row.first[belts] - np.cumsum(row.size[belts]) + row.size[belts])[:, None]  # masses of other belts
+        acting, near = places.acting[belts] - before, places.near[belts] - before
         units = np.zeros((acting.shape[1] - 1, diagonal.size))
         units[0, acting[:, 0]] -= 1.0
-        units[np.arange(len(units))[:, None], acting[:, 1:].T] += 1.0
-        solved, _ = dpttrs(lower, off, units.T)
+        units[np.arange(len(units)), acting[:, 1:]] += 1.0
+        solved, _ = dpttrs(lower, off, units.T, overwrite_b=True)
         made = solved.T[:, np.hstack([acting[:, :2], near])].transpose(1, 0, 2)
         ends, stiff, carriage = made[:, :, 1] - made[:, :, 0], self.stiff[belts], self.carriage[belts]
         own = ends[:, 0]
@@ -211,7 +211,7 @@ class WaveSolver:
     def lacking(self, change: Array, before: Array, wanted: Array) -> Array:
         """Impulse lacking in the take-up's tension after such a change of speeds [N s]."""
         first, last = self.row.first, self.row.last
-        apart = change[last] - change[first]
+        apart = change.take(last) - change.take(first)
         if self.keeps:
             apart = np.where(self.stiff, apart + (before[last] - before[first]) - wanted, apart)
         return np.asarray(self.kappa * apart)

@@ -208,6 +208,20 @@ def test_the_error_of_peaks_is_the_grid_convergence_index_of_four_sizes(highest,
     assert following._peak_error(peaks) == pytest.approx(error / highest[-1], rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("lowest", "swing", "error"),
+    [
+        ((32.0, 28.0, 26.0, 25.0), 0.0, 1.25 * 2.0 / (2.0**0.5 - 1.0)),  # counts half of 4, falls no faster than √2
+        ((32.0, 28.0, 26.0, 27.0), 0.0, 1.25 * 2.0 / (2.0**0.5 - 1.0)),  # back
+        ((32.0, 28.0, 26.0, 25.0), 9.0, 9.0),
+        ((26.0, 26.0, 26.0, 26.0), 0.0, 0.0),
+    ],
+)
+def test_a_lowest_tension_that_comes_at_once_converges_with_order_one_half(lowest, swing, error):
+    peaks = [following._Peaks(100.0, one, 0.1, swing) for one in lowest]
+    assert following._peak_error(peaks) == pytest.approx(error / 100.0, rel=1e-12)
+
+
 @pytest.mark.usefixtures("rigged")
 def test_the_shortest_ramp_keeps_every_criterion():
     """Shorter ones do not; without an inverter there is none."""
