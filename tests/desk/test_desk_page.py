@@ -306,6 +306,8 @@ def test_paper_has_the_figures_and_what_was_changed(page):
 
 def test_a_phone_scrolls_down_only_and_has_the_sliders_near_the_figures(page):
     page.set_viewport_size({"width": 390, "height": 844})
+    page.focus("#table")  # its names of figures are long
+    page.wait_for_selector("#table option[value=pulleys]", state="attached")
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
     tops = {
         name: page.locator(place).bounding_box()["y"]
