@@ -14,7 +14,6 @@ from conveyor.laws.wind import AIR_DENSITY, WIND_LIFT, lifting_speed
 from conveyor.line.stretches import STRANDS
 from conveyor.loop.belt_duty import CurveCheck
 from conveyor.loop.horizontal_curve_duty import DriftState, HorizontalCurveCheck
-from conveyor.loop.pipe_curve_duty import PipeCurveCheck
 from conveyor.units.sentences import Message, escape_braces, message
 
 _PIPE_RULE: Final = f"{PIPE_RADIUS['textile']:g} D textile, {PIPE_RADIUS['steel cord']:g} D steel cord, rule of thumb"
@@ -32,9 +31,7 @@ def curve_radius(result: CalculatedConveyor) -> Iterator[Check]:
                 yield _curve_radius_check(curve, least, fine, bad)
 
 
-def _curve_radius_check(
-    curve: CurveCheck | HorizontalCurveCheck | PipeCurveCheck, least: float, fine: str, bad: str
-) -> Check:
+def _curve_radius_check(curve: CurveCheck | HorizontalCurveCheck, least: float, fine: str, bad: str) -> Check:
     section = escape_braces(curve.section)
     words = f'section "{section}", {curve.strand}: {bad} on the {curve.kind} curve of {{}}; '
     helps = math.isfinite(least)
@@ -78,14 +75,11 @@ def wind_lift(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def pipe_curves(result: CalculatedConveyor) -> Iterator[Check]:
-    """In every curve of a pipe the radius is that of the rule of thumb, no strip is overstressed or slack."""
+    """In every curve of a pipe the radius is that of the rule of thumb.
+
+    Its strips are a remark: makers bend pipes by their diameter alone, whatever plane sections give.
+    """
     for curve in result.pipe_curves:
-        for least, fine, bad in (
-            (curve.overstress, "no strip overstressed", "a strip of the belt is overstressed"),
-            (curve.buckling, "no strip slack", "a strip of the belt goes slack"),
-        ):
-            if least is not None:
-                yield _curve_radius_check(curve, least, fine, bad)
         section = escape_braces(curve.section)
         yield check_against_limit(
             "pipe_radius", f"{curve.kind} curve of the pipe, {section}, {curve.strand}", curve.radius, "at least",

@@ -42,8 +42,9 @@ def allowed_tension(line: Line) -> float | None:
 
 
 def strip_limits(
-    line: Line, lowest: float, highest: float, *, radius: float, stretched: float, slackened: float
-) -> StripLimits:
+    line: Line, lowest: float, highest: float, *, radius: float, stretched: float, slackened: float,
+    least_tension: float = LEAST_EDGE_TENSION,
+) -> StripLimits:  # fmt: skip
     """Limits of a curve for its strips.
 
     Parameters
@@ -56,6 +57,8 @@ def strip_limits(
         Of the curve [m].
     stretched, slackened : float
         Distances of the strips that it stretches and slackens most from the belt's middle [m].
+    least_tension : float
+        Least tension per width of a strip [N/m].
     """
     allowed, stiffness = allowed_tension(line), line.belt.tensile_stiffness
     if allowed is None or stiffness is None:
@@ -65,7 +68,7 @@ def strip_limits(
         over = overstress_radius(
             max(0.0, highest), distance=stretched, stiffness_per_width=stiffness, allowed_per_width=allowed
         )
-    slack = taut_radius(lowest, slackened, stiffness, LEAST_EDGE_TENSION)
+    slack = taut_radius(lowest, slackened, stiffness, least_tension)
     turned = stiffness / radius
     return StripLimits(over, slack, highest + turned * stretched, lowest - turned * slackened)
 

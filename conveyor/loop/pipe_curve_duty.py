@@ -34,8 +34,8 @@ class PipeCurveCheck:
     by_rule : float
         Least radius by rule of thumb [m].
     overstress, buckling : float or None
-        Least radii at which no strip of the belt is overstressed or slack [m]; infinite where none helps, None where
-        stiffness or strength are unknown.
+        Least radii at which no strip of the belt bears more than the rated tension, or is slack, by plane sections [m];
+        infinite where none helps, None where stiffness or strength are unknown. Told, not judged.
     most, least : float or None
         Highest and lowest tension of a strip that occur on it [N/m].
     """
@@ -90,7 +90,15 @@ def _curve_check(line: Line, i: int, states: Sequence[MotionState]) -> Iterator[
         highest,
         max(abs(force_on_set(line, stretch, tension, radius)) for tension in (lowest, highest)),
         least_pipe_radius(2.0 * pipe.radius, steel_cord=line.belt.steel_cord),
-        *strip_limits(line, lowest / width, highest / width, radius=radius, stretched=reach, slackened=reach),
+        *strip_limits(
+            line,
+            lowest / width,
+            highest / width,
+            radius=radius,
+            stretched=reach,
+            slackened=reach,
+            least_tension=0.0,
+        ),
     )
 
 

@@ -19,6 +19,7 @@ from conveyor.laws.resistance import (
 )
 from conveyor.line.roll_drags import acceptance_limit, assumed_bearing, bearing_viscosity
 from conveyor.line.set_loads import FormedPipe
+from conveyor.loop.belt_limits import allowed_tension
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.calculation_methods import METHOD_NAMES
 from conveyor.models.library_items import without_entry_fields
@@ -28,7 +29,7 @@ from conveyor.remarks.bed_warnings import bed_warnings
 from conveyor.remarks.hopper_warnings import hopper_warnings
 from conveyor.units import quantity, same_value, text
 from conveyor.units.presentation import format_figure
-from conveyor.units.sentences import Message, message
+from conveyor.units.sentences import Message, escape_braces, message
 
 COLD_OIL_VISCOSITY = (
     1e-3  # [m²/s], ten times a usual base oil at 40 degC: its drag is then a multiple of the measured range
@@ -48,6 +49,7 @@ def part_warnings(result: CalculatedConveyor) -> tuple[Message, ...]:
         *_cover_warnings(conveyor),
         *_set_warnings(result),
         *_pipe_warnings(conveyor),
+        *_pipe_curve_warnings(result),
         *bed_warnings(conveyor),
         *hopper_warnings(conveyor),
         *_other_warnings(conveyor),
@@ -228,6 +230,29 @@ def _pipe_warnings(conveyor: Conveyor) -> Iterator[Message]:
             (pipe.least_stiffness, "moment"),
             (pipe.stiffness, "moment"),
         )
+
+
+def _pipe_curve_warnings(result: CalculatedConveyor) -> Iterator[Message]:
+    """Curves of a pipe whose strips plane sections take beyond the rated tension, or slack."""
+    rated = allowed_tension(result.line)
+    for curve in result.pipe_curves:
+        if rated is not None and curve.most is not None and curve.most > rated:
+            yield message(
+                f'section "{escape_braces(curve.section)}", {curve.strand}: on the {curve.kind} curve of {{}} the '
+                "outside of the pipe has {} by plane sections, the belt is rated for {}; not judged, makers bend pipes "
+                "by their diameter: ask the belt's maker, or a wider curve",
+                (curve.radius, "length"),
+                (curve.most, "strength"),
+                (rated, "strength"),
+            )
+        if curve.least is not None and curve.least < 0.0:
+            yield message(
+                f'section "{escape_braces(curve.section)}", {curve.strand}: on the {curve.kind} curve of {{}} the '
+                "inside of the pipe is slack by plane sections, where the belt has {}; not judged, rolls hold the pipe "
+                "all round: see that it keeps its form there, or set the take-up higher",
+                (curve.radius, "length"),
+                (curve.lowest, "force"),
+            )
 
 
 def _has_section_flexure(conveyor: Conveyor) -> bool:

@@ -73,7 +73,7 @@ def divide_loading_sections(
         sections += [front | {"name": name, "carry_spacing": written(close, "m")}, rest]
         moved[section.name] = name, zone
     data["sections"] = sections
-    return _renamed(data, given, moved, written)
+    return _follow_divided_sections(data, given, moved, written)
 
 
 def loading_zone_length(speed: float, gravity: float, point: Feeding | None) -> float:
@@ -127,20 +127,20 @@ def _front_name(name: str, names: set[str]) -> str:
     )
 
 
-def _renamed(
+def _follow_divided_sections(
     data: dict[str, Any], route: Route, moved: Mapping[str, tuple[str, float]], written: Callable[[float, str], str]
 ) -> dict[str, Any]:
     """Route data whose loading points and scales name the part of a divided section that they stand in."""
 
-    def landed(fields: dict[str, Any]) -> dict[str, Any]:
+    def at_front(fields: dict[str, Any]) -> dict[str, Any]:
         """Fields of a loading point."""
         name = str(fields.get("section"))
         return fields | {"section": moved[name][0]} if name in moved else fields
 
     if "feeding" in data:
-        data["feeding"] = landed(data["feeding"])
+        data["feeding"] = at_front(data["feeding"])
     if "further_feeding" in data:
-        data["further_feeding"] = [landed(point) for point in data["further_feeding"]]
+        data["further_feeding"] = [at_front(point) for point in data["further_feeding"]]
     if "belt_scales" in data:
         placed = []
         for scale, fields in zip(route.belt_scales, data["belt_scales"], strict=True):

@@ -439,7 +439,7 @@ def _distances_of_sets() -> Iterator[ReferenceCheck]:
         # next term of the cosh: (8 sag)²/48 of it
         expected, name = low * load * 3.0, f"tension for {100 * sag:g} % sag, 150 kg/m, 3 m [N]"
         yield relative_check(_CATENARY, name, expected, got, 1.01 * 4.0 / 3.0 * sag**2)
-    section = SectionSpacing("", "carry", 400.0, 2.0, 5.0, 1.0, math.inf, grows=3.0, falls=4.0)
+    section = SectionSpacing("", "carry", False, 400.0, 2.0, 5.0, 1.0, math.inf, grows=3.0, falls=4.0)
     tried = np.linspace(1.0, 8.0, 7_001)
     best = float(tried[np.argmin([section.cost(a) for a in tried.tolist()])])
     yield relative_check(_SPACING_COST, "cheapest distance [m], 3 a^(1/3) + 4/a", best, section.cheapest, 0.0005 / best)

@@ -12,6 +12,7 @@ from conveyor.checks.register import run_checks
 from conveyor.laws.loading import pipe_roll_loads
 from conveyor.models.fields import with_fields
 from conveyor.pipeline import calculate
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.spec import dump
 from tests.command_line import ROOT, run
 from tests.loop.test_pipe import ANGLES, PANEL
@@ -104,7 +105,7 @@ def test_a_hill_presses_down_and_a_valley_lifts_to_the_upper_rolls(curve, more, 
 def test_the_belt_is_held_in_a_valley_in_which_a_trough_would_lift_off():
     valley = with_section(HILL | {"curve": "concave", "curve_radius": "240 m"})
     checks = run_checks(calculate(valley))
-    assert "curve_radius" in {check.key for check in checks}
+    assert "pipe_radius" in {check.key for check in checks}
     assert not any("stays down" in str(check.subject) for check in checks)
 
 
@@ -130,6 +131,32 @@ def test_strips_of_the_pipe_are_stretched_by_their_distance_from_its_middle(left
         assert check.most == pytest.approx(check.highest / 1.46 + turned, rel=1e-12)
         assert check.least == pytest.approx(check.lowest / 1.46 - turned, rel=1e-12)
         assert check.angle == pytest.approx(300.0 / 400.0)
+
+
+def test_a_pipe_at_the_makers_radius_is_not_refused_for_its_strips():
+    """600 D of a steel-cord belt: E d/R is 199 kN/m, more than T/B at the tail; the radius of the rule governs.
+
+    To keep every strip taut asks for E d/(T/B); what is slack or above the rated tension is told.
+    """
+    bent = with_section(BEND | {"horizontal_curve": "left", "horizontal_radius": "228 m"})
+    result = calculate(bent)
+    checks = list(pipe_curves(result))
+    assert [(check.key, check.verdict) for check in checks] == [("pipe_radius", "pass")] * 2  # both strands
+    stretch = 72.0 * 3150e3 * (0.190 + 0.008 + 0.0025)
+    rated = 3150e3 / 6.7
+    for curve in result.pipe_curves:
+        taut = stretch / (curve.lowest / 1.46) if curve.lowest > 0.0 else math.inf
+        assert curve.buckling == pytest.approx(taut, rel=1e-12)
+        spare = rated - curve.highest / 1.46
+        assert curve.overstress == pytest.approx(stretch / spare if spare > 0.0 else math.inf, rel=1e-12)
+    said = [one.text() for one in analysis_warnings(result, checks)]
+    assert sum("inside of the pipe is slack" in one for one in said) == sum(
+        curve.buckling > curve.radius for curve in result.pipe_curves
+    )
+    assert sum("outside of the pipe has" in one for one in said) == sum(
+        curve.overstress > curve.radius for curve in result.pipe_curves
+    )
+    assert any("outside of the pipe has" in one for one in said)
 
 
 def test_two_bends_in_one_section_make_one():

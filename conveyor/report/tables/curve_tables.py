@@ -116,8 +116,8 @@ def pipe_curves(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     rows = _worst_of_cases(every, lowest=min, highest=max, push=max, overstress=max, buckling=max, most=max, least=min)
     note = (
         "Rule of thumb: conveyorbeltguide.com/pipe-belts.html. Strips: plane sections of a round pipe, the carcass at "
-        "its distance from the middle. Vertical and horizontal in one section: the radius of both together. Twist of "
-        "the pipe and of its overlap in the curve is not calculated."
+        "its distance from the middle; told, not judged: the rule governs. Vertical and horizontal in one section: the "
+        "radius of both together. Twist of the pipe and of its overlap in the curve is not calculated."
     )
     if rows and a.line.belt.stiffness is None:
         note += f" {_USUAL_STIFFNESS}"
