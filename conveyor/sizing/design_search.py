@@ -259,7 +259,7 @@ class _Search:
         if not probes:
             probes = _shortlist_candidates(task, self.choices, self.estimate.largest_use, count, covers=True)
         first = _first_calculations(task, self.choices, self.estimate, probes)
-        self._levelled(first, {})
+        self._update_calibration(first, {})
 
     def draw(self, most: int) -> list[int]:
         """Uncalculated ones of the `most` candidates that are cheapest by the estimate."""
@@ -287,7 +287,7 @@ class _Search:
         self.answers |= zip(new, found, strict=True)
         self.reasons.update(one.rule for one in found if isinstance(one, Shortfall))
         made = {i: one.found for i, one in self.answers.items() if isinstance(one, SizedDesign)}
-        self._levelled(made, {i: one.uses for i, one in self.answers.items()})
+        self._update_calibration(made, {i: one.uses for i, one in self.answers.items()})
         return [one for one in found if isinstance(one, SizedDesign)]
 
     def failed(self, design: SizedDesign, why: Shortfall) -> None:
@@ -297,7 +297,7 @@ class _Search:
                 self.answers[i] = why
                 self.reasons[why.rule] += 1
 
-    def _levelled(
+    def _update_calibration(
         self,
         calculated: Mapping[int, CalculatedConveyor],
         uses: Mapping[int, Mapping[Limit, float]],
@@ -389,10 +389,10 @@ def _calibrate_estimate(
     for i, one in calculated.items():
         main = {force.key: force for force in one.balance.along if force.kind == "main"}
         cover, forces, classical = choices[i].cover, one.balance.forces, choices.task.classical
-        levelled = main if classical else ("indentation",)
+        scaled_forces = main if classical else ("indentation",)
         for k, strand in enumerate(STRANDS):
-            exact = math.fsum(main[key].by_strand()[strand] for key in levelled)
-            over.setdefault((strand, cover), []).append(exact / estimate.levelled[i, k])
+            exact = math.fsum(main[key].by_strand()[strand] for key in scaled_forces)
+            over.setdefault((strand, cover), []).append(exact / estimate.scaled_forces[i, k])
         if classical is None:
             over.setdefault("drag", []).append(main["idler_rotation"].total / estimate.rolls[i])
         over.setdefault("design", []).append(one.line.design_friction / levels.design)

@@ -250,7 +250,7 @@ class _Selection:
 
     def _wide_enough(self, place: str, least: float, alike: Sequence[str]) -> Iterator[ListedPart]:
         """Pulleys of a face and diameter [m] that suit the belt, the smallest first, from the present one on."""
-        face = self.choice.trough.width.belt + self.task.face_allowance
+        face = self.choice.trough.width.belt + self.task.pulleys.face_allowance
         wide = [
             item for item in self.items("pulleys")
             if within_limit(face, read_si(item.fields["face_width"], "length"))

@@ -35,10 +35,13 @@ class PulleySizes:
         Whether the series are CEMA's.
     falls : bool
         Whether the belt falls: its highest tension may then be at tail and take-up pulleys.
+    asked_allowance : float or None
+        Face beyond the belt's width by the rules [m]; usual without.
     """
 
     us: bool
     falls: bool
+    asked_allowance: float | None = None
 
     @property
     def series(self) -> tuple[float, ...]:
@@ -47,7 +50,9 @@ class PulleySizes:
 
     @property
     def face_allowance(self) -> float:
-        """Face of a pulley beyond the belt's width [m]."""
+        """Face of a pulley beyond the belt's width, at least [m]; general knowledge without a rule."""
+        if self.asked_allowance is not None:
+            return self.asked_allowance
         return _FACE_ALLOWANCE_US if self.us else _FACE_ALLOWANCE
 
     def drive_diameter(self, carcass: CarcassClass) -> float:

@@ -183,7 +183,7 @@ class Estimates:
         Index of the belt class.
     force, design_force : ndarray
         Force of all drives, as expected and with the friction to design for [N].
-    levelled : ndarray, shape (n, 2)
+    scaled_forces : ndarray, shape (n, 2)
         What has a factor for carry and return strand: indentation, by a classical method the main resistance [N].
     rolls : ndarray
         Number of rolls in all sets.
@@ -198,7 +198,7 @@ class Estimates:
     carcass: NDArray[np.int64]
     force: Array
     design_force: Array
-    levelled: Array
+    scaled_forces: Array
     rolls: Array
     rest: Array
     uses: Mapping[Limit, Array]
@@ -259,7 +259,7 @@ class _LoopEstimate(NamedTuple):
     covers: Array
     middle: Array
     sets: Array
-    levelled: Array
+    scaled_forces: Array
     force: Array
     design_force: Array
     slack: Array
@@ -320,7 +320,7 @@ def screen_candidates(task: SizingTask, every: Candidates, levels: EstimateCalib
     yearly = np.asarray(cost.year)
     year = np.where(possible, yearly, np.inf)
     rolls = length * per_metre.sum(axis=0)
-    return Estimates(yearly, year, carcass, force, around.design_force, around.levelled, rolls, rest, uses)
+    return Estimates(yearly, year, carcass, force, around.design_force, around.scaled_forces, rolls, rest, uses)
 
 
 def _estimate_loop(
@@ -351,7 +351,7 @@ def _estimate_loop(
         three * (middle / three) ** _LOAD_EXPONENT
         + 2.0 * _WING_LOAD_FACTOR * on_wing * (wing / on_wing) ** _LOAD_EXPONENT
     )
-    levelled = np.array([
+    scaled_forces = np.array([
         np.array(levels.carry)[cover] * np.cbrt(bottom / diameter**2) * per_set * length / carry,
         np.array(levels.back)[cover] * np.cbrt(top / diameter**2) * wide * (belt * g * back / wide) ** _LOAD_EXPONENT
         * length / back,
@@ -361,13 +361,13 @@ def _estimate_loop(
     spans = hanging * np.array([carry, back])
     square = 1.0 - (1.0 - of_bulk) * np.sin(every.runs(lambda on: on.trough.angle)) ** 2  # wings turn by cos λ
     askew = task.misalignment_friction * g * np.array([(belt + bulk) * square, belt])
-    straight = levelled / length + levels.drag * np.array([3.0 / carry, count / back]) + askew
+    straight = scaled_forces / length + levels.drag * np.array([3.0 / carry, count / back]) + askew
     flexes, sag = FLEXURE_COEFFICIENT.value, sags
     if task.classical is not None:
         main = np.array([levels.carry, levels.back])[:, cover] * task.classical.main_friction(
             _rotating_masses(every, carry, back), belt, bulk, spacing=carry, gravity=g
         )
-        levelled, straight, flexes = main * length, task.classical.coefficient * main, 0.0
+        scaled_forces, straight, flexes = main * length, task.classical.coefficient * main, 0.0
     for _ in range(_FLEXURE_PASSES):  # the sag follows the tension, which follows the flexure
         friction = straight + flexes * sag * hanging
         rubbing = levels.design * friction
@@ -390,7 +390,7 @@ def _estimate_loop(
     travel = travel * (mean / width / series.stiffest[kind] + lasting)
     sets = np.array([task.lump_factor * (belt + bulk) * g * carry, spans[1]]).T
     chosen = np.minimum(asked, last)
-    return _LoopEstimate(covers, middle, sets, levelled.T, force, design_force, slack, chosen, strength, travel)
+    return _LoopEstimate(covers, middle, sets, scaled_forces.T, force, design_force, slack, chosen, strength, travel)
 
 
 def _roll_life(every: Candidates, middle: Array) -> Array:

@@ -26,6 +26,7 @@ from conveyor.laws.take_up import (
     STEEL_EXPANSION,
     TRAVEL_RESERVE,
 )
+from conveyor.line.optional_quantities import si_or_none
 from conveyor.line.usual_parts import usual_lump_factor
 from conveyor.models import Conveyor
 from conveyor.models.base import given_data
@@ -260,12 +261,6 @@ class SizingTask:
             return tuple(sorted({read_si(item.fields["diameter"], "length") for item in pulleys}))
         return self.pulleys.series
 
-    @property
-    def face_allowance(self) -> float:
-        """Face of a listed pulley beyond the belt's width, at least [m]; general knowledge without a rule."""
-        given = self.rules.face_allowance
-        return self.pulleys.face_allowance if given is None else si(given)
-
     @cached_property
     def spacings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Spacings of carry and return sets to choose from [m]."""
@@ -462,7 +457,11 @@ class SizingTask:
     @cached_property
     def pulleys(self) -> PulleySizes:
         """Pulleys and shafts of its series."""
-        return PulleySizes(us=self.duty.series == "US", falls=math.fsum(rise for _, rise in self.sections) < 0.0)
+        return PulleySizes(
+            us=self.duty.series == "US",
+            falls=math.fsum(rise for _, rise in self.sections) < 0.0,
+            asked_allowance=si_or_none(self.rules.face_allowance),
+        )
 
     def colder(self, conveyor: Conveyor) -> Conveyor:
         """The conveyor with its covers at the coldest temperature."""

@@ -231,7 +231,7 @@ def test_levels_of_one_calculation_make_the_estimate_that_calculation():
     forces = found.balance.forces
     main = {force.key: force for force in found.balance.along}
     for k, strand in enumerate(STRANDS):
-        assert again.levelled[i, k] == pytest.approx(main["indentation"].by_strand()[strand], rel=1e-9)
+        assert again.scaled_forces[i, k] == pytest.approx(main["indentation"].by_strand()[strand], rel=1e-9)
     assert made.drag * again.rolls[i] == pytest.approx(main["idler_rotation"].total, rel=1e-9)
     assert again.rest[i] == pytest.approx(forces.secondary + forces.special, rel=1e-9)
     used = {
