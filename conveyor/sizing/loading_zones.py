@@ -7,12 +7,10 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from conveyor.laws.preliminary_sizing import SKIRTBOARD_TIME
-from conveyor.laws.resistance import acceleration_length
+from conveyor.line.skirted_zones import given_set_spacing, loading_zone_length, scale_distance
 from conveyor.models.route import Feeding, Route, Section
 from conveyor.sizing.design_choice import DesignChoice
 from conveyor.sizing.sizing_task import SizingTask
-from conveyor.units import si
 
 _ROUNDING = 1e-9  # [-], of a number of sets
 
@@ -41,14 +39,16 @@ def divide_loading_sections(
     Notes
     -----
     The zone reaches to the end of the skirts that the duty gives, else as far as skirtboards usually do
-    (`SKIRTBOARD_TIME`), in whole sets. Plates, vertical curves and sections without bulk keep what they have.
+    (`loading_zone_length`), in whole sets. Plates, vertical curves and sections without bulk keep what they have.
     """
     given, data, sections = task.duty.sized_route, dict(route), []
     names = {section.name for section in given.sections}
     spacings = choice.graduated or (choice.carry,) * len(given.sections)
     moved: dict[str, tuple[str, float]] = {}
     left = 0.0
-    for section, apart, fields in zip(given.sections, spacings, route["sections"], strict=True):
+    for section, (length, _), apart, fields in zip(
+        given.sections, task.sections, spacings, route["sections"], strict=True
+    ):
         for point in _points_at(given, section):
             left = max(left, loading_zone_length(choice.speed, task.gravity, point))
         close = _loading_spacing(task, given, section, apart)
@@ -56,7 +56,7 @@ def divide_loading_sections(
             left = 0.0
             sections.append(fields)
             continue
-        zone, length = close * math.ceil(left / close - _ROUNDING), si(section.length)
+        zone = close * math.ceil(left / close - _ROUNDING)
         if zone >= length:
             sections.append(fields | {"carry_spacing": written(close, "m")})
             left = max(0.0, left - length)
@@ -76,28 +76,6 @@ def divide_loading_sections(
     return _follow_divided_sections(data, given, moved, written)
 
 
-def loading_zone_length(speed: float, gravity: float, point: Feeding | None) -> float:
-    """Length of the zone where bulk lands and comes to rest between skirts [m].
-
-    Parameters
-    ----------
-    speed : float
-        Speed of the belt [m/s].
-    gravity : float
-        [m/s²].
-    point : Feeding or None
-        The loading point as the duty gives it; as long as skirtboards usually are without.
-    """
-    if point is None:
-        return SKIRTBOARD_TIME * speed
-    if point.skirtboards is not None:
-        return point.skirted_length
-    accelerated = acceleration_length(
-        belt_speed=speed, initial_speed=si(point.speed), belt_friction=point.belt_friction, gravity=gravity
-    )
-    return accelerated + point.skirted_length
-
-
 def _points_at(route: Route, section: Section) -> Iterator[Feeding | None]:
     """Loading points at the tail end of a section; an assumed one on the first."""
     first = section.name == route.sections[0].name
@@ -110,11 +88,8 @@ def _points_at(route: Route, section: Section) -> Iterator[Feeding | None]:
 
 def _loading_spacing(task: SizingTask, route: Route, section: Section, apart: float) -> float:
     """Spacing of the sets of a loading section [m]: that of its loading point, else by the rules."""
-    given = [
-        si(point.idler_spacing)
-        for point in _points_at(route, section)
-        if point is not None and point.idler_spacing is not None
-    ]
+    spacings = (given_set_spacing(point) for point in _points_at(route, section) if point is not None)
+    given = [one for one in spacings if one is not None]
     return min([*given, apart]) if given else task.loading_spacing(apart)
 
 
@@ -145,7 +120,7 @@ def _follow_divided_sections(
         placed = []
         for scale, fields in zip(route.belt_scales, data["belt_scales"], strict=True):
             name, zone = moved.get(scale.section, (scale.section, 0.0))
-            beyond = si(scale.distance) - zone
+            beyond = scale_distance(scale) - zone
             here = {"section": name} if beyond < 0.0 else {"distance": written(beyond, "m")}
             placed.append(fields | here if scale.section in moved else fields)
         data["belt_scales"] = placed
