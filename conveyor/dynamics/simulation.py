@@ -35,16 +35,16 @@ ERROR: Final = 0.01
 """Default error of the peaks [-]."""
 
 
-_CELLS = 25  # of the longest belt at first
+_CELLS = 50  # of the longest belt at first
 
 
-_REFINEMENTS = 6  # refinements at most
+_REFINEMENTS = 5  # refinements at most
 
 
 _RETRIES = 2  # refinements of a scenario without an answer: its cells may be too long
 
 
-_SIZES = 4  # cell sizes for an error estimate
+_SIZES = 3  # cell sizes for an error estimate
 
 
 _SAFETY = 1.25  # for three sizes and more: P. J. Roache, J. Fluids Eng. 116 (1994) 405
@@ -251,7 +251,7 @@ def _needs_refinement(one: _ResultOrRefusal, error: float) -> TypeGuard[Scenario
 
 
 def _peak_error(peaks: Sequence[_Peaks]) -> float | None:
-    """Error of the last peaks over the highest [-], from their changes as cells were halved; None for fewer than four.
+    """Error of the last peaks over the highest [-], from their changes as cells were halved; None for fewer than three.
 
     Grid convergence index with the observed order, at most the first: a change may be small by chance, so it counts at
     least half the previous one. A change of opposite sign shows no order and counts like the previous one. A lowest
