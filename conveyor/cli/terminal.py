@@ -480,12 +480,16 @@ def show_sizing(contents: Contents) -> None:
     title = f"{contents.document.title}: designs"
     screen = terminal_console()
     screen.print(report_grid(every.only(*_DESIGN_COLUMNS), contents.system, title, large=True))
+    shown = every.only("top_cover", "bottom_cover", "belt_safety", "why", "closest_carry_sets").columns
     for rank, row in enumerate(every.rows, start=1):
+        figures = {column.key: (column.kind, column.get(row)) for column in shown}
         said = {
-            column.key: display_unit(column.kind, contents.system).said(column.get(row))
-            for column in every.only("top_cover", "bottom_cover", "belt_safety", "why").columns
+            key: display_unit(kind, contents.system).said(value)
+            for key, (kind, value) in figures.items()
+            if value is not None
         }
         words = "{why}; top cover {top_cover}, bottom cover {bottom_cover}, belt safety {belt_safety}"
+        words += "; carry sets from {closest_carry_sets} on, by the tension" if "closest_carry_sets" in said else ""
         screen.print(plain_text(f"{rank}: {words.format(**said)}"))
     screen.print(plain_text("\nbasis and limitations", style="bold"))
     for line in merge_notes(contents.lines("assumption")):

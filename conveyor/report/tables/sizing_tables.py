@@ -146,6 +146,8 @@ def design_table(sizing: CalculatedSizing) -> Table:
         Column("rolls", "size", "1.choice.roll.diameter", json="roll_diameter_mm"),
         Column("CEMA class", "text", "1.choice.roll.cema_class", None, json="cema_class", sparse=True),
         Column("carry sets", "spacing", lambda row: _widest_spacing(row[1]), json="carry_spacing_m"),
+        Column("closest carry sets", "spacing", lambda row: min(row[1].choice.graduated, default=None),
+               json="closest_carry_spacing_m", sparse=True),
         Column("return sets", "spacing", "1.choice.back", None, json="return_spacing_m"),
         Column("drives", "text", "1.choice.drives", None, json="drives"),
         Column("motors", "power", lambda row: sum(row[1].chosen.motors), json="motors_kW"),
