@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import conveyor
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 from conveyor.spec import dump
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -59,7 +59,7 @@ def main(count: int) -> None:
         spec.write_text(dump(long), encoding="utf-8")
         read = step("spec", lambda: conveyor.load(spec))
         found = step("analyse", lambda: conveyor.analyse(read))
-        made = step("studies", lambda: studies(read, found))
+        made = step("studies", lambda: analyse_studies(read, found))
         step("json", lambda: found.to_dict(made))
         step("workbook", lambda: found.to_excel(Path(folder) / "long.xlsx", made))
 

@@ -42,7 +42,7 @@ def calculate(conveyor: Conveyor, kept: ReuseCache | None = None) -> CalculatedC
     """Calculate one conveyor under its own load, designed for the upper end of the band of its friction.
 
     The take-up is at its given setting, else at the least that serves this load; reports have the least that serves
-    every load, from `conveyor.studies`.
+    every load, from `conveyor.analyse_studies`.
 
     Parameters
     ----------

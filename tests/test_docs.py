@@ -14,7 +14,7 @@ from ruamel.yaml import YAML
 
 import conveyor
 import conveyor.spec
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 from conveyor.starter.format_reference import heading_anchor
 from conveyor.starter.starter_data import starter_values
 from tests.command_line import run
@@ -145,7 +145,7 @@ def test_fragment_of_a_spec(page: Path, number: int) -> None:
     line = conveyor.spec.from_data(fragment if "name" in fragment else merged(overland(), fragment))
     found = conveyor.analyse(line)
     assert found.balance.power.motor > 0.0
-    studies(line, found)
+    analyse_studies(line, found)
 
 
 def test_the_studies_on_their_page_are_the_examples() -> None:

@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import conveyor
-from conveyor.results.analysis import Analysis, Studies, studies
+from conveyor.results.analysis import Analysis, Studies, analyse_studies
 
 SPECS = Path(__file__).parent.parent / "examples" / "specs"
 
@@ -15,5 +15,5 @@ SPECS = Path(__file__).parent.parent / "examples" / "specs"
 def worked_example(stem: str) -> tuple[Analysis, Studies]:
     """Analysis beside its studies, as `power` shows it, and the studies, of an example by its name without ending."""
     result = conveyor.analyse(conveyor.load(SPECS / f"{stem}.yaml"))
-    asked = studies(result.conveyor, result)
-    return result.beside(asked), asked
+    asked = analyse_studies(result.conveyor, result)
+    return result.at_common_take_up(asked), asked

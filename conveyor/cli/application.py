@@ -69,7 +69,7 @@ class _CommandGroup(typer.core.TyperGroup):
 COMMAND_ORDER = (
     "new", "desk", "size", "power", "compare", "study", "optimise", "dynamics", "calibrate", "template", "fit",
     "anchor", "shelf", "library",
-    "verify-sheet", "contact", "validate", "schema",
+    "verify-sheet", "contact", "validate", "schema", "doctor",
 )  # fmt: skip
 
 app = typer.Typer(

@@ -42,19 +42,19 @@ def power(
     from conveyor import spec as spec_file
     from conveyor.report.tables.analysis_contents import analysis_contents
     from conveyor.report.tables.result_schema import analysis_json
-    from conveyor.results.analysis import studies
+    from conveyor.results.analysis import analyse_studies
 
     line = session.read(spec)
     system = session.system(line)
     result = conveyor.analyse(line)
     with session.progress() as told:
         with spec_file.locate_errors(spec):
-            asked = studies(line, result, progress=told)
+            asked = analyse_studies(line, result, progress=told)
         assessment = result.assess(asked)
         contents = analysis_contents(assessment.in_units(system))
         to.write(contents, told)
         if plots is not None:
-            to.figures(result.beside(asked).in_units(system).plots.every(asked), plots, plot_kind.value)
+            to.figures(result.at_common_take_up(asked).in_units(system).plots.every(asked), plots, plot_kind.value)
     from conveyor.cli.terminal import show_power
 
     session.answer(lambda: analysis_json(assessment), to, lambda: show_power(contents))

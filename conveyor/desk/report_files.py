@@ -51,13 +51,13 @@ def report_bytes(conveyor: Conveyor, kind: str, system: System, progress: Callab
         raise InputError(f"kind: {' or '.join(REPORTS)}")
     from conveyor.report import excel, html, pdf
     from conveyor.report.tables.analysis_contents import analysis_contents
-    from conveyor.results.analysis import analyse, studies
+    from conveyor.results.analysis import analyse, analyse_studies
 
     if kind == "pdf":
         pdf.require_typst()
     result = analyse(conveyor)
     progress()
-    assessment = result.assess(studies(conveyor, result, progress=progress))
+    assessment = result.assess(analyse_studies(conveyor, result, progress=progress))
     contents = analysis_contents(assessment.in_units(system))
     if kind == "workbook":
         path = Path("report.xlsx")

@@ -84,8 +84,8 @@ class Analysis(CalculatedConveyor):
         report = self.conveyor.report.replace(units=system)
         return replace(self, conveyor=self.conveyor.replace(report=report))
 
-    def beside(self, studies: Studies | None) -> Self:
-        """Return the same load at the common take-up setting of the loads of `conveyor.studies`."""
+    def at_common_take_up(self, studies: Studies | None) -> Self:
+        """Return the same load at the common take-up setting of all loads of `conveyor.analyse_studies`."""
         states = None if studies is None else studies.states
         if states is None:
             return self
@@ -93,11 +93,15 @@ class Analysis(CalculatedConveyor):
         return replace(self, contacts=own.contacts, balance=own.balance, fixed=own.fixed, convergence=own.convergence)
 
     def assess(self, studies: Studies | None = None) -> Assessment:
-        """Checks, governing loads, range of power and take-up, with `conveyor.studies` if given."""
-        return self.assessment if studies is None else Assessment(self.beside(studies), studies, studies.dynamics)
+        """Checks, governing loads, range of power and take-up, with `conveyor.analyse_studies` if given."""
+        return (
+            self.assessment
+            if studies is None
+            else Assessment(self.at_common_take_up(studies), studies, studies.dynamics)
+        )
 
     def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
-        """Contents of a report in a system of units, with `conveyor.studies` if given."""
+        """Contents of a report in a system of units, with `conveyor.analyse_studies` if given."""
         from conveyor.report.tables.analysis_contents import analysis_contents
 
         return analysis_contents(self.assess(studies).in_units(report_system(self.conveyor.report.units, system)))
@@ -138,7 +142,7 @@ class Analysis(CalculatedConveyor):
         return self.tables["rubber"].frame()
 
     def to_dict(self, studies: Studies | None = None) -> dict[str, Any]:
-        """Plain numbers for JSON, SI or the unit in the key, with `conveyor.studies` if given.
+        """Plain numbers for JSON, SI or the unit in the key, with `conveyor.analyse_studies` if given.
 
         `conveyor schema --result` prints the JSON schema of it.
         """
@@ -148,7 +152,7 @@ class Analysis(CalculatedConveyor):
 
     @check_arguments
     def to_excel(self, path: str | Path, studies: Studies | None = None, *, system: System | None = None) -> Path:
-        """Write the workbook, with the sheets of `conveyor.studies` if given.
+        """Write the workbook, with the sheets of `conveyor.analyse_studies` if given.
 
         Parameters
         ----------
@@ -202,7 +206,7 @@ class Analysis(CalculatedConveyor):
 
     @check_arguments
     def to_html(self, path: str | Path, studies: Studies | None = None, *, system: System | None = None) -> Path:
-        """Write the HTML report, one static page, with the parts of `conveyor.studies` if given.
+        """Write the HTML report, one static page, with the parts of `conveyor.analyse_studies` if given.
 
         Parameters
         ----------
@@ -417,9 +421,6 @@ def analyse_studies(
         flooded=made.flooded,
         dynamics=_scenario_results(conveyor, made, progress) if conveyor.scenarios else None,
     )
-
-
-studies = analyse_studies
 
 
 def _scenario_results(

@@ -119,7 +119,7 @@ def analyse_duty(
     conveyor : Conveyor
         With operation; without a duty there, all its hours are at the flow and temperature of the spec.
     take_up : TakeUpSetting, optional
-        Setting and side through the year, as `conveyor.studies` determines them for every load; by default the least of
+        Setting and side through the year, as `analyse_studies` determines them for every load; by default the least of
         each bar, as in `analyse`.
     rtol : float, optional
         Relative tolerance of the contacts [-]; by default that of the spec.

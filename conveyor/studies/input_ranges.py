@@ -143,7 +143,7 @@ def analyse_ranges(
     ranges : Uncertainty, optional
         Ranges; by default those of the spec.
     take_up : TakeUpSetting, optional
-        Setting and side in every variant, as `conveyor.studies` determines them for every load; by default the least of
+        Setting and side in every variant, as `analyse_studies` determines them for every load; by default the least of
         each, as in `analyse`.
     rtol : float, optional
         Relative tolerance of the contacts [-]; by default that of the spec.

@@ -32,7 +32,7 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.models.fields import with_fields
 from conveyor.report.tables.result_schema import analysis_json
 from conveyor.report.tables.study_tables import year_table
-from conveyor.results.analysis import analyse, studies
+from conveyor.results.analysis import analyse, analyse_studies
 from conveyor.studies.duty import analyse_duty
 from conveyor.studies.loads import every_load
 from tests.command_line import run
@@ -241,7 +241,7 @@ def test_the_answer_has_the_digits_of_power_json(client, folder):
     got = ask(client, "/result", file="overland.yaml", changes=changes).json()
     line = with_fields(conveyor.load(folder / "overland.yaml"), changes)
     result = analyse(line)
-    expected = json.loads(json.dumps(analysis_json(result.assess(studies(line, result)))))
+    expected = json.loads(json.dumps(analysis_json(result.assess(analyse_studies(line, result)))))
 
     def compare(one, other, where=""):
         if isinstance(one, dict):

@@ -25,7 +25,7 @@ from conveyor.report import excel, html, pdf
 from conveyor.report.tables.analysis_contents import analysis_contents
 from conveyor.report.translated_page import translate_page
 from conveyor.report.translated_workbook import translate_contents
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 from conveyor.text.markup import Markup, element, join_html
 
 ROOT = Path(__file__).parents[2]
@@ -37,7 +37,7 @@ EVERY = sorted(path.stem for path in SPECS.glob("*.yaml"))
 def contents(name, system="SI"):
     line = load(SPECS / f"{name}.yaml")
     result = analyse(line)
-    return analysis_contents(result.assess(studies(line, result)).in_units(system))
+    return analysis_contents(result.assess(analyse_studies(line, result)).in_units(system))
 
 
 @pytest.mark.parametrize("name", EVERY)
@@ -95,7 +95,7 @@ def test_what_the_user_named_stays(tmp_path):
     path = tmp_path / "named.yaml"
     path.write_text(spec + "report: {language: es, client: full}\n", encoding="utf-8")
     line = load(path)
-    report = analysis_contents(analyse(line).assess(studies(line, analyse(line))).in_units("SI"))
+    report = analysis_contents(analyse(line).assess(analyse_studies(line, analyse(line))).in_units("SI"))
     page = str(html.build_page(report))
     assert '<html lang="es">' in page
     assert ">full<" in page
@@ -107,7 +107,8 @@ def test_the_language_changes_no_figure_and_no_fingerprint():
     line = load(SPECS / "slider.yaml")
     spanish = line.replace(report=line.report.replace(language="es"))
     one, other = (
-        analysis_contents(analyse(each).assess(studies(each, analyse(each))).in_units("SI")) for each in (line, spanish)
+        analysis_contents(analyse(each).assess(analyse_studies(each, analyse(each))).in_units("SI"))
+        for each in (line, spanish)
     )
     assert one.document.fingerprint == other.document.fingerprint
     assert {key: part.records() for key, part in one.by_key.items() if not key.startswith("inputs")} == {

@@ -13,7 +13,7 @@ import pytest
 import conveyor
 from conveyor.errors import InputError
 from conveyor.models import Conveyor
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 from conveyor.spec import load
 
 SPEC = Path(__file__).parent.parent.parent / "examples" / "specs" / "overland.yaml"
@@ -60,7 +60,7 @@ def test_the_effort_grows_with_the_number_of_sections() -> None:
         tracemalloc.start()
         with profile:
             found = conveyor.analyse(line)
-            found.contents(studies(line, found))
+            found.contents(analyse_studies(line, found))
         _, memory = tracemalloc.get_traced_memory()
         tracemalloc.stop()
         return sum(one.callcount for one in profile.getstats()), memory

@@ -19,7 +19,7 @@ from conveyor.models import Scenario
 from conveyor.models.calculation_methods import METHOD_NAMES
 from conveyor.models.variants import with_case
 from conveyor.pipeline import calculate, calculate_many
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 from conveyor.studies.loads import every_load
 
 SPECS = Path(__file__).parents[2] / "examples" / "specs"
@@ -259,7 +259,7 @@ def test_load_states_are_those_of_the_method(method, cema):
 def test_every_report_can_be_made(stem, method, cema, tmp_path):
     line = by(stem, method, cema=cema)
     analysis = conveyor.analyse(line)
-    made = studies(line, analysis)
+    made = analyse_studies(line, analysis)
     name = METHOD_NAMES[method]
     page = analysis.to_html(tmp_path / "page.html", made).read_text(encoding="utf-8")
     assert f"this calculation, {name}" in page

@@ -11,7 +11,7 @@ import pytest
 import conveyor
 from conveyor.errors import InputError
 from conveyor.report.plots import save_figure
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 from conveyor.units import from_si
 from conveyor.units.presentation import display_unit
 
@@ -37,7 +37,7 @@ def result(line):
 
 @pytest.fixture(scope="module")
 def figures(result, line):
-    asked = studies(line, result)
+    asked = analyse_studies(line, result)
     return {system: result.plots.every(asked, system=system) for system in ("SI", "US")}
 
 

@@ -17,7 +17,7 @@ from openpyxl.utils import get_column_letter
 import conveyor
 from conveyor.errors import InputError
 from conveyor.report.cells import CELL_CHARACTERS
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 DIGITS = 1e-15  # openpyxl writes 16 significant digits
@@ -142,7 +142,7 @@ def test_formulas_have_their_values_beside_them(overland, tmp_path):
                    "duty": [{"hours": "6000 h", "share": "100 %"}]}
     )  # fmt: skip
     found = conveyor.analyse(priced)
-    path = found.to_excel(tmp_path / "priced.xlsx", studies(priced, found))
+    path = found.to_excel(tmp_path / "priced.xlsx", analyse_studies(priced, found))
     values, formulas = (openpyxl.load_workbook(path, data_only=shown) for shown in (True, False))
 
     def cell(book, name):

@@ -13,7 +13,7 @@ from conveyor.checks import governing_by_subject
 from conveyor.errors import InputError
 from conveyor.report import html
 from conveyor.report.page_elements import COLOURS, DARK
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 from conveyor.units import sentences
 from conveyor.units.presentation import display_unit
 from tests.report.checking import checks
@@ -44,12 +44,12 @@ def line():
 
 @pytest.fixture(scope="module")
 def studied(line):
-    return studies(line)
+    return analyse_studies(line)
 
 
 @pytest.fixture(scope="module")
 def result(line, studied):
-    return conveyor.analyse(line).beside(studied)
+    return conveyor.analyse(line).at_common_take_up(studied)
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ import pytest
 import conveyor
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve
 from conveyor.models import LoadCase, RubberCompound
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 from conveyor.rubber import PronySeries, fit_prony
 from tests.report.reading import HOSTILE, Page
 
@@ -39,7 +39,7 @@ def result(line):
 
 @pytest.fixture(scope="module")
 def asked(line):
-    return studies(line)
+    return analyse_studies(line)
 
 
 @pytest.fixture(scope="module")

@@ -17,7 +17,7 @@ from conveyor.errors import InputError
 from conveyor.files import output_marks
 from conveyor.report import html, page_elements, pdf
 from conveyor.report.table_model import Column, Table
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 from conveyor.text.markup import Html, join_html
 from tests.command_line import run
 from tests.report.reading import HOSTILE, VOID
@@ -68,7 +68,7 @@ def sheets(*content):
 @pytest.fixture(scope="module")
 def report():
     line = conveyor.load(EXAMPLES / "specs" / "in_plant_us.yaml")
-    return conveyor.analyse(line), studies(line)
+    return conveyor.analyse(line), analyse_studies(line)
 
 
 @pytest.fixture(scope="module")
@@ -137,7 +137,9 @@ def test_a_table_wider_than_its_paper_is_parted_and_names_its_rows_in_every_part
 @pytest.mark.parametrize("name", ["overland_10km", "in_plant_us", "transfer", "curved"])
 def test_no_letter_on_paper_is_smaller_than_eight_points(name):
     line = conveyor.load(EXAMPLES / "specs" / f"{name}.yaml")
-    source = pdf.typst_source(html.build_page(conveyor.analyse(line).contents(studies(line)), on_paper=True), "A4")
+    source = pdf.typst_source(
+        html.build_page(conveyor.analyse(line).contents(analyse_studies(line)), on_paper=True), "A4"
+    )
     sizes = [float(size) for size in re.findall(r"#captioned\(\w+,\n([\d.]+)pt,", source)]
     assert len(sizes) > 10
     assert min(sizes) == pytest.approx(8.0)

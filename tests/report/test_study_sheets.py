@@ -6,7 +6,7 @@ import openpyxl
 import pytest
 
 import conveyor
-from conveyor.results.analysis import Studies, studies
+from conveyor.results.analysis import Studies, analyse_studies
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +60,7 @@ def test_yes_and_no_are_words(book):
 
 
 def test_spec_without_studies_studies_nothing():
-    none = studies(conveyor.load("examples/specs/downhill.yaml"))
+    none = analyse_studies(conveyor.load("examples/specs/downhill.yaml"))
     assert (none.cases, none.duty, none.uncertainty) == (None, None, None)
     assert set(none.to_dict()) == {"states", "worst_states", "flooded", "take_up"}
 

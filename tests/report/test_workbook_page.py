@@ -12,7 +12,7 @@ import conveyor
 from conveyor.models import LoadCase, Scenario
 from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, SUMMARY_SHEET, build_workbook
 from conveyor.report.tables.comparison_tables import comparison_contents
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 from conveyor.results.comparisons import compare_compounds
 from conveyor.starter.output_reference import KIND, output_page, page_words, table_cells
 from conveyor.studies.states import StateRefusal
@@ -118,7 +118,7 @@ def _of_a_rare_spec():
         drive=line.drive.replace(**parts, further_drives=(second,)),
         scenarios=(fails,),
     )
-    asked = studies(line)
+    asked = analyse_studies(line)
     refused = StateRefusal("full", 308.15, "bulk that does not fit")
     winch = conveyor.analyse(line.replace(route=route.replace(take_up={"kind": "winch"})))
     found = conveyor.analyse(line), replace(asked, states=replace(asked.states, refused=(refused,)))

@@ -19,7 +19,7 @@ import conveyor
 from conveyor import shelf
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models.fields import with_fields
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 from conveyor.spec import from_data
 from conveyor.units import si
 from conveyor.units.quantity_kinds import INPUT_KINDS
@@ -157,8 +157,8 @@ def outcome(data: Data, *, whole: bool) -> str:
         return "refused"
     try:
         result = conveyor.analyse(line)
-        every = studies(line, result) if whole else None
-        shown = result.beside(every)
+        every = analyse_studies(line, result) if whole else None
+        shown = result.at_common_take_up(every)
         plain = shown.to_dict(every)
         tables = shown.contents(every).by_key if whole else {}
     except ConveyorError as error:

@@ -16,7 +16,7 @@ from conveyor.languages.translator import report_translator
 from conveyor.models.study import StudyPlan
 from conveyor.remarks.assumptions import stepped_drags
 from conveyor.report.tables.design_tables import study_contents
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 from conveyor.studies.design_figures import pareto_front, weighted_mean, weighted_percentile
 from conveyor.studies.duty import analyse_duty
 from conveyor.studies.evaluation import study_objectives, summarise_study
@@ -365,8 +365,8 @@ def test_figures_of_all_loads_are_those_of_power(tmp_path):
     assert own.keeps
     assert slower.broken == ("all_loads_failed",)
     found = conveyor.analyse(given)
-    studied = studies(given, found)
-    plain = found.beside(studied).to_dict(studied)
+    studied = analyse_studies(given, found)
+    plain = found.at_common_take_up(studied).to_dict(studied)
     governing = [check for check in plain["checks"] if check["governs"]]
     assert own.figures["all_loads_failed"] == sum(check["verdict"] == "fail" for check in governing) == 0
     assert own.figures["all_loads_take_up"] == pytest.approx(plain["take_up"]["setting_N"])
@@ -395,7 +395,7 @@ def test_a_belt_by_its_rating_has_a_use_and_no_safety(tmp_path):
         _, (one,) = designed(given, known, **plan, figures=[*uses], limits=uses)
     assert one.keeps
     found = conveyor.analyse(given)
-    rows = [row for row in found.to_dict(studies(given, found))["checks"] if row["key"] == "belt_rating"]
+    rows = [row for row in found.to_dict(analyse_studies(given, found))["checks"] if row["key"] == "belt_rating"]
     highest = max(row["calculated"] / row["required"] for row in rows)
     assert one.figures["all_loads_belt_use"] == pytest.approx(highest)
     assert 0.4 < one.figures["belt_use"] <= one.figures["all_loads_belt_use"] < 1.0

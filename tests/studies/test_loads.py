@@ -11,7 +11,7 @@ from conveyor.dynamics.simulation import prepare_setups, standard_scenarios
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
 from conveyor.pipeline import calculate_many
-from conveyor.results.analysis import analyse, studies
+from conveyor.results.analysis import analyse, analyse_studies
 from conveyor.spec import load
 from conveyor.studies.loads import every_load
 from conveyor.units import si
@@ -33,7 +33,7 @@ def line():
 
 @pytest.fixture(scope="module")
 def found(line):
-    return studies(line)
+    return analyse_studies(line)
 
 
 def test_one_setting_serves_every_load(line, found):
@@ -92,14 +92,14 @@ def test_rolls_bear_the_tension_of_the_one_setting_in_every_load_state(line):
 def test_the_load_as_given_is_among_those_that_govern():
     """Of a spec whose cases leave out the full belt the motors are for it all the same."""
     given = load(SPECS / "downhill.yaml").replace(cases=[{"name": "empty", "loading": "empty"}])
-    found = studies(given)
+    found = analyse_studies(given)
     own, (motor,) = found.states.own, found.motors
     every = [own, *(load.found for load in (*found.states.loads, *found.cases.results))]
     held = min(one.governing_motor_power for one in every)
     assert motor.needed == pytest.approx(held, rel=RTOL)
     assert motor.rated * motor.count >= -held
     level = load(SPECS / "curved.yaml").replace(cases=[{"name": "empty", "loading": "empty"}])
-    found = studies(level)
+    found = analyse_studies(level)
     assert [row.result.name for row in found.governing if row.key.startswith("largest_motor")] == ["as given"]
     assert found.motors[0].needed == pytest.approx(found.states.own.governing_motor_power, rel=RTOL)
 
@@ -109,7 +109,7 @@ def test_of_two_loads_that_are_one_the_same_governs_everywhere():
     given = load(SPECS / "downhill.yaml")
     route = given.route.replace(sections=[{"name": "slope", "length": "1800 m", "lift": "-54 m"}])
     given = given.replace(route=route, cases=[{"name": "bare", "loading": "empty"}])
-    found = studies(given)
+    found = analyse_studies(given)
     told = analyse(given).to_dict(found)
     by_figure = {row.key: row.result.name for row in found.governing}
     assert by_figure["largest_tension_asked_of_the_take_up"] == "bare"
@@ -121,7 +121,7 @@ def test_motor_power_of_all_loads_is_that_of_the_report():
     """A belt that drives its motors asks more of them than the empty one does of its own power."""
     given = load(SPECS / "downhill.yaml")
     loads, found = every_load(given), analyse(given)
-    asked = studies(given)
+    asked = analyse_studies(given)
     told = next(c for c in found.to_dict(asked)["checks"] if c["key"] == "motor_power" and c["governs"])
     assert told["where"] == "least friction"
     assert loads.motor_power == pytest.approx(1e3 * told["calculated"], rel=RTOL)

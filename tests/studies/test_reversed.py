@@ -13,7 +13,7 @@ from conveyor.models import LoadCase
 from conveyor.models.reversal import with_direction_reversed
 from conveyor.models.variants import with_case
 from conveyor.pipeline import calculate
-from conveyor.results.analysis import studies
+from conveyor.results.analysis import analyse_studies
 from conveyor.units import si
 from tests.loop.loop_lines import BOOSTER, data
 
@@ -105,7 +105,7 @@ def test_lift_and_bulk_by_hand():
 def test_cases_are_checked_both_ways_at_one_take_up():
     given = conveyor.load(SPEC)
     found = conveyor.analyse(given)
-    made = found.to_dict(studies(given, found))
+    made = found.to_dict(analyse_studies(given, found))
     rows = {row["case"]: row for row in made["load_cases"]["cases"]}
     assert rows["to the west"]["loading"] == "as given, reversed"
     governs = {check["key"]: check["case"] for check in made["checks"] if check["governs"]}

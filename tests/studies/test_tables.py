@@ -21,7 +21,7 @@ from conveyor.models import RubberCompound, standard_cases
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
 from conveyor.report.tables.study_tables import power_bands
-from conveyor.results.analysis import studies, study_ranges
+from conveyor.results.analysis import analyse_studies, study_ranges
 from tests.written_tables import written_tables
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -97,7 +97,7 @@ def test_load_cases_as_plain_data(line):
         for name in ("full", "declines only")
     ]
     given = line.replace(cases=[*asked, {"name": "surge", "loading": "part load", "share": "200 %"}])
-    found = studies(given)
+    found = analyse_studies(given)
     data = json.loads(json.dumps(found.to_dict()["load_cases"], allow_nan=False))
     assert len(data["cases"]) == len(found.cases.results) == 4
     assert data["friction_band"] == [pytest.approx(0.6), found.cases.as_given.line.design_friction]
@@ -137,7 +137,7 @@ def test_an_empty_year_shows_no_energy_per_tonne(line):
 
 
 def test_a_year_as_plain_data(line):
-    found = studies(line.replace(operation={"duty": [HOURS]}))
+    found = analyse_studies(line.replace(operation={"duty": [HOURS]}))
     data = json.loads(json.dumps(found.to_dict()["duty"], allow_nan=False))
     assert data["year"]["drawn [MWh]"] == pytest.approx(found.duty.year.drawn_kwh / 1e3)
     assert len(data["duty"]) == 1
@@ -163,7 +163,7 @@ def test_a_comparison_counts_energy_fed_back_as_the_year_does(feed_in, price, tm
 
 def test_tornado_and_band(line):
     given = line.replace(uncertainty={"roll_drag": "30 %", "flexure_share": ["8 %", "14 %"]})
-    found = studies(given)
+    found = analyse_studies(given)
     effects, table = found.uncertainty.effects, found.uncertainty.table
     assert table["input"].tolist() == [effect.name for effect in effects]
     assert table["swing [kW]"].to_numpy() == pytest.approx(np.array([effect.swing for effect in effects]) / 1e3)

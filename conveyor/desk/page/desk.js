@@ -126,11 +126,12 @@ let flying = false, again = false, resting = null, pause = 0;
 async function ask() {
   if (flying) { again = true; return; }
   flying = true;
-  do {
-    again = false;
-    await answer();
-  } while (again);
-  flying = false;
+  try {
+    do {
+      again = false;
+      await answer();
+    } while (again);
+  } finally { flying = false; }
   restSoon();
 }
 
