@@ -190,27 +190,29 @@ def _rank_with_neighbours(search: _Search, final: list[SizedDesign]) -> tuple[li
 
     Covers thicker than wear asks for are no choice of the search.
     """
-    task, failed = search.task, set[DesignChoice]()
+    task, tried = search.task, set[DesignChoice]()
     while True:
-        first = final[0]
+        first, ranked = final[0], {one.choice for one in final}
         neighbours = size_neighbours(task, first)
-        cheaper = [
-            one
+        cheaper = {
+            choice: one
             for choice, one in neighbours.items()
             if isinstance(one, SizedDesign)
             and one.year < first.year
             and choice.thicker <= first.choice.thicker
-            and choice not in failed
-            and choice != first.choice
-        ]
+            and choice not in tried
+            and one.choice not in ranked
+        }
         if not cheaper:
             return final, neighbours
-        estimated = screen_candidates(task, Candidates.of_choices(task, [one.choice for one in cheaper]), search.levels)
-        cheaper = [replace(one, estimate=float(cost)) for one, cost in zip(cheaper, estimated.cost, strict=True)]
-        final = _rank_designs([*final, *_final_designs(search, cheaper, 1)])
+        tried |= cheaper.keys()
+        estimated = screen_candidates(
+            task, Candidates.of_choices(task, [one.choice for one in cheaper.values()]), search.levels
+        )
+        begun = [replace(one, estimate=float(cost)) for one, cost in zip(cheaper.values(), estimated.cost, strict=True)]
+        final = _rank_designs([*final, *_final_designs(search, begun, 1)])
         if final[0] is first:
             return final, neighbours
-        failed |= {one.choice for one in cheaper}
 
 
 def _stretch_refusal(task: SizingTask) -> NoSolutionError:
