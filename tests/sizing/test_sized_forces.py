@@ -60,7 +60,7 @@ def test_estimated_indentation_goes_with_rolls_and_spans_as_that_of_a_roll(task)
         rows = np.flatnonzero((alike == one).all(axis=1))
         seen += np.unique(diameter[rows]).size > 1 and np.unique(spans[1, rows]).size > 1
         for k in range(2):
-            law = found.levelled[rows, k] * diameter[rows] ** (2.0 / 3.0) / np.cbrt(spans[k, rows])
+            law = found.scaled_forces[rows, k] * diameter[rows] ** (2.0 / 3.0) / np.cbrt(spans[k, rows])
             assert law == pytest.approx(law[0], rel=1e-9)
     assert seen
 
