@@ -382,6 +382,7 @@ def test_jonkers_scales_as_the_winkler_foundation_does():
         (lambda: cf.composite_plane_modulus(1.0, 0.0), r"plane_modulus: got 0\.0"),
         (lambda: cf.hertz_half_width(-1.0, radius=1.0, plane_modulus=1.0), r"load: got -1\.0"),
         (lambda: cf.plate_symbol(np.array([0.1, 0.0])), r"q: got .*, allowed: > 0"),
+        (lambda: cf.hunter(math.inf, memory=1.0), r"modulus_ratio: got inf, allowed: >= 1 and finite"),
         (lambda: cf.winkler(**ONE | {"equilibrium": 0.0}, entry=1.0), r"equilibrium: got 0\.0"),
         (
             lambda: cf.winkler(**ONE | {"moduli": np.array([-1.0])}, entry=1.0),
