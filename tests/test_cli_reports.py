@@ -55,7 +55,7 @@ def test_everything_is_written_and_said(written):
 def at_the_take_up(spec):
     """The analysis with the take-up that serves the load states too, as `power` shows it."""
     found = conveyor.analyse(conveyor.load(spec))
-    return found.beside(conveyor.studies.calculate_studies(found.conveyor, found))
+    return found.at_common_take_up(conveyor.studies.calculate_studies(found.conveyor, found))
 
 
 def test_units_of_the_terminal(written):

@@ -176,7 +176,7 @@ def test_a_storm_blows_the_empty_belt_off_and_the_picture_says_so():
     off = [check for check in belt_drift(stormy) if check.failed]
     assert {check.found.text() for check in off} == {"runs off its rolls"}
     assert all(check.calculated is None and "no radius helps" in check.why.text() for check in off[:1])
-    (axis,) = drift_drawn([("as given", stormy.horizontal)]).axes
+    (axis,) = drift_drawn([("as given", stormy.horizontal)], system="SI").axes
     assert "runs off" in {text.get_text() for text in axis.texts}
 
 

@@ -595,16 +595,22 @@ function openSaver() {
   showDifference();
 }
 
+let differences = 0; // the newest is that of the name shown
+
 async function showDifference() {
-  const refuse = (words) => { $("saveerror").textContent = words; $("saveerror").hidden = !words; $("dosave").disabled = !!words; };
+  const mine = ++differences;
+  const refuse = (words) => { $("saveerror").textContent = words; $("saveerror").hidden = !words; };
+  $("dosave").disabled = true;
   try {
     const got = await post("/difference", { file: state.file, changes: changes(), target: $("target").value.trim() });
+    if (mine !== differences) return;
     $("folder").textContent = `in ${got.folder}`;
     $("replacer").hidden = !got.exists;
     $("diff").replaceChildren(...(got.lines.length ? got.lines.map((line) => make("span", { class: line[0] === "+" ? "add" : line[0] === "-" ? "del" : null }, line)) : ["Nothing changes."]));
     refuse("");
     $("dosave").disabled = got.exists && !$("replace").checked;
   } catch (problem) {
+    if (mine !== differences) return;
     $("diff").replaceChildren();
     refuse(said(problem));
   }
@@ -689,7 +695,7 @@ function listen() {
     document.documentElement.dataset.theme = localStorage.theme = dark ? "light" : "dark";
   });
   for (const button of document.querySelectorAll("[data-save]")) button.addEventListener("click", () => save(button.dataset.save));
-  $("target").addEventListener("change", showDifference);
+  $("target").addEventListener("input", showDifference);
   $("target").addEventListener("keydown", (event) => { if (event.key === "Enter") { event.preventDefault(); showDifference(); } }); // not the Cancel of its form
   $("replace").addEventListener("change", showDifference);
   $("dosave").addEventListener("click", doSave);
