@@ -191,11 +191,11 @@ def test_a_winch_with_a_speed_needs_its_run_up_in_scenarios():
 @pytest.mark.parametrize(
     ("highest", "error"),
     [
-        ((104.0, 102.0, 101.0), 1.25),  # first order: as much again is missing
-        ((106.0, 102.0, 101.5), 1.25 * 2.0),  # faster: half the change before
-        ((102.0, 100.0, 100.0), 1.25),  # no change by chance
-        ((101.0, 102.0, 105.0), 1.25 * 3.0 / (2.0**0.5 - 1.0)),  # apart: as of order 1/2
-        ((102.0, 104.0, 103.0), 1.25 * 2.0),  # back
+        ((104.0, 102.0, 101.0), 2.0),  # first order: as much again is missing
+        ((106.0, 102.0, 101.5), 2.0 * 2.0),  # faster: half the change before
+        ((102.0, 100.0, 100.0), 2.0),  # no change by chance
+        ((101.0, 102.0, 105.0), 2.0 * 3.0 / (2.0**0.5 - 1.0)),  # apart: as of order 1/2
+        ((102.0, 104.0, 103.0), 2.0 * 2.0),  # back
         ((100.0, 100.0, 100.0), 0.0),
     ],
 )
@@ -208,8 +208,8 @@ def test_the_error_of_peaks_is_the_grid_convergence_index_of_three_sizes(highest
 @pytest.mark.parametrize(
     ("lowest", "swing", "error"),
     [
-        ((28.0, 26.0, 25.0), 0.0, 1.25 * 2.0**0.5 / (2.0**0.5 - 1.0)),  # counts 2/√2, falls no faster than √2
-        ((28.0, 26.0, 27.0), 0.0, 1.25 * 2.0**0.5 / (2.0**0.5 - 1.0)),  # back
+        ((28.0, 26.0, 25.0), 0.0, 2.0 * 2.0**0.5 / (2.0**0.5 - 1.0)),  # counts 2/√2, falls no faster than √2
+        ((28.0, 26.0, 27.0), 0.0, 2.0 * 2.0**0.5 / (2.0**0.5 - 1.0)),  # back
         ((28.0, 26.0, 25.0), 9.0, 9.0),
         ((26.0, 26.0, 26.0), 0.0, 0.0),
     ],
