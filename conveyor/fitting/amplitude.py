@@ -108,9 +108,13 @@ def amplitude_ratio(known: Sequence[StrainAmplitudes]) -> float:
 def reference_strain(
     read: Sequence[DmaData], known: Sequence[StrainAmplitudes], request: Request, *, needed: bool
 ) -> str | None:
-    """Single tensile strain amplitude of the master curve, given or stated by its files, without contradiction.
+    """Single tensile strain amplitude of the master curve, given or stated by its files; None if unknown.
 
-    None if it is unknown and not `needed`, as are several of different files.
+    Raises
+    ------
+    InputError
+        The given amplitude contradicts a file, or does not state shear or tension where the files are of shear; the
+        files state different amplitudes, and one is `needed`.
     """
     given = request.reference_strain
     if given is None:

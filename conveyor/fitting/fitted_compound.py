@@ -199,11 +199,23 @@ def _law_of_table(shifts: DmaData | None, described: Mapping[str, Any], request:
 
 @check_arguments
 def fit_file(data: Path | Sequence[Path], request: Request) -> FittedCompound:
-    """Fit the files of one rubber and describe the result as a compound; refused where no solid fits the data.
+    """Fit the files of one rubber and describe the result as a compound.
 
-    They are one master curve, or isotherms, sweeps at one temperature, relaxation curves and temperature sweeps in any
-    number of files, of any layout that `conveyor.laboratory.read_dma` understands; files of shift factors and strain
-    sweeps among them are taken as `shift` and `strain`.
+    Parameters
+    ----------
+    data : Path or sequence of Path
+        One master curve, or isotherms, sweeps at one temperature, relaxation curves and temperature sweeps in any
+        number of files; files of shift factors and strain sweeps among them are taken as `shift` and `strain`. Of
+        any layout `conveyor.laboratory.read_dma` understands.
+    request : Request
+        Options of the fit.
+
+    Raises
+    ------
+    InputError
+        A file is refused or of another kind, or a value is missing or outside its range.
+    NoSolutionError
+        No solid fits the data.
     """
     paths = [data] if isinstance(data, Path) else list(data)
     read, shifts, strains, said = _read_by_kind(paths, request)

@@ -129,7 +129,24 @@ class _Column:
 
 @check_arguments
 def read_maker_list(path: str | Path) -> MakerList:
-    """Read a maker's list from its workbook; every error has its sheet and cell."""
+    """Read a maker's list from a workbook.
+
+    Parameters
+    ----------
+    path : str or Path
+        Workbook with a sheet for each kind, as `conveyor library template` writes it.
+
+    Returns
+    -------
+    MakerList
+        Its items by kind and name.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or cells are refused; all errors at once, each with file, sheet, cell, field, value and
+        what to do.
+    """
     where = Path(path)
     if where.suffix.lower() != ".xlsx":
         raise InputError(f'{where}: a maker\'s list is a workbook that ends in .xlsx, got "{where.name}"')

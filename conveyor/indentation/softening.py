@@ -131,7 +131,40 @@ SoftCover: TypeAlias = tuple[PronySeries, WorkingStrain]
 
 
 def soften_or_raise(works: Sequence[SofteningCover]) -> list[SoftCover]:
-    """Series of covers at their working strains, as `soften_covers`; the first error is raised."""
+    """Series of covers at their working strains, as `soften_covers`; the first error is raised.
+
+    Parameters
+    ----------
+    works : sequence of SofteningCover
+        Covers, each with its line load [N/m] and temperature [K].
+
+    Returns
+    -------
+    list of (PronySeries, WorkingStrain)
+        In the order of the covers.
+
+    Raises
+    ------
+    NoSolutionError
+        The contact has no solution, the strain does not converge, or the softened rubber would be a fluid.
+    RangeError
+        The strain is outside the sweeps.
+
+    Examples
+    --------
+    >>> from conveyor.rubber import StrainSweep
+    >>> strain, storage = (
+    ...     [1e-4, 1.5e-4, 2e-4, 1e-3, 1e-2, 1e-1],
+    ...     [11.0e6, 11.0e6, 10.9e6, 10.4e6, 7.7e6, 3.5e6],
+    ... )
+    >>> factors = AmplitudeFactors([StrainSweep(293.15, 1.0, strain, storage, [1.4e6] * 6)], 1e-4)
+    >>> contact = RollContact(
+    ...     radius=0.08, spacing=1.5, cover_thickness=0.006, speed=5.0, rubber=PronySeries(8e6, [3e6], [1e-3])
+    ... )
+    >>> [(series, at)] = soften_or_raise([SofteningCover(contact, 3000.0, factors, 293.15)])
+    >>> bool(abs(factors.storage(at.strain, 293.15) / at.storage_factor - 1.0) < STRAIN_RTOL)
+    True
+    """
     covers: list[SoftCover] = []
     for soft in soften_covers(works):
         if not isinstance(soft, tuple):
@@ -141,7 +174,28 @@ def soften_or_raise(works: Sequence[SofteningCover]) -> list[SoftCover]:
 
 
 def soften_covers(works: Sequence[SofteningCover]) -> list[SoftCover | NoSolutionError | RangeError]:
-    """Series and working strain of covers, solved in a batch, or the error of each instead."""
+    """Series of covers at their working strains, solved in a batch.
+
+    Parameters
+    ----------
+    works : sequence of SofteningCover
+        Covers, each with its line load [N/m] and temperature [K].
+
+    Returns
+    -------
+    list
+        Series and working strain of each cover, or the error instead.
+
+    Raises
+    ------
+    InputError
+        The load of a contact is out of range.
+
+    Examples
+    --------
+    >>> soften_covers([])
+    []
+    """
     coarsely = itertools.chain([True], itertools.repeat(False))
 
     def strains_of(asked: list[int], series: list[PronySeries]) -> list[WorkingPoint | NoSolutionError]:
@@ -170,7 +224,24 @@ def soften_covers(works: Sequence[SofteningCover]) -> list[SoftCover | NoSolutio
 def soften_at_strains(
     works: Sequence[SofteningCover], worked: Sequence[WorkingPoint]
 ) -> list[SoftCover | NoSolutionError | RangeError]:
-    """Series of covers at given strain amplitudes [-] and angular frequencies [rad/s]; no contact is solved.
+    """Series of covers at given strains; no contact is solved.
+
+    Parameters
+    ----------
+    works : sequence of SofteningCover
+        Covers, each with its line load [N/m] and temperature [K].
+    worked : sequence of tuple of float
+        Strain amplitude [-] and angular frequency [rad/s] of each.
+
+    Returns
+    -------
+    list
+        Series and working strain of each cover, or the error instead.
+
+    Raises
+    ------
+    InputError
+        A strain or a frequency is not positive.
 
     Examples
     --------

@@ -230,6 +230,11 @@ def read_with_answers(path: Path, answers: Mapping[str, Any], *, poisson_ratio: 
 
     With several files, answers on units, temperatures and column names that this file contradicts or lacks are not
     applied to it.
+
+    Raises
+    ------
+    InputError
+        As `read_dma`, for the reading with all answers.
     """
     answers = answers_for_file(path, answers) if several else answers
     try:

@@ -158,7 +158,13 @@ def replica_band(
 
 
 def factor_from_rows(compound: RubberCompound, rows: Sequence[RollingTestRow]) -> RollingTestFactor:
-    """Fit the test factor of a compound to its rows; refused where they are farther from the theory than rubber is."""
+    """Fit the test factor of a compound to its rows and check that it is plausible.
+
+    Raises
+    ------
+    InputError
+        The tests are farther from the theory than tests of rubber are, or go with the line load as no roll does.
+    """
     level = fit_test_factor(
         [row.line_load for row in rows],
         [row.temperature for row in rows],

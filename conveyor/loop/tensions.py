@@ -173,9 +173,16 @@ class LoopBatch:
     ) -> MotionOffsets:
         """Tension offsets of states with given drive forces, which balance resistances and inertia.
 
-        Shape (b, m): friction over the computed one [-], acceleration of belt and bulk [m/s²]; forces of the drives,
-        shape (b, m, d), and resistances of the pulleys, shape (b, pulleys) [N]; `filled`, shape (m,), is 1 for states
-        in which the belt breaks away under filled hoppers, else 0.
+        Parameters
+        ----------
+        friction, acceleration : ndarray, shape (b, m)
+            Friction over the computed one [-]; acceleration of belt and bulk [m/s²].
+        forces : ndarray, shape (b, m, d)
+            Forces of the drives [N].
+        bends : ndarray, shape (b, pulleys)
+            Resistances of the pulleys [N].
+        filled : ndarray, shape (m,), optional
+            1 for states in which the belt breaks away under filled hoppers, else 0 [-].
         """
         plan = self.plan
         steps = _totals_in_state(self.met, friction, acceleration)

@@ -55,7 +55,17 @@ class LoadCase(Model):
 def standard_cases(
     temperatures: Sequence[str | Quantity] = (), speeds: Sequence[str | Quantity] = ()
 ) -> tuple[LoadCase, ...]:
-    """Full, empty, inclines only, declines only, each at every temperature and speed; those of the spec without.
+    """Full, empty, inclines only, declines only, each at every temperature and speed.
+
+    Parameters
+    ----------
+    temperatures, speeds : sequence of str or Quantity
+        Temperatures and speeds of the belt ("-20 degC", "5 m/s"); those of the spec without.
+
+    Raises
+    ------
+    InputError
+        A value is refused.
 
     Examples
     --------

@@ -30,11 +30,31 @@ def with_fields(
     resolve: CompoundResolver | None = None,
     kept: ReuseCache | None = None,
 ) -> Conveyor:
-    """Copy of a conveyor with changed fields, checked like a new spec; errors are on a line each, with their path.
+    """Copy of a conveyor with changed fields, checked like a new spec.
 
-    New values are as specs write them, by path: names of fields joined by points; items of a list by number from 0 in
-    brackets, or by their `name` (`route.sections.incline.lift`). `resolve` looks up compounds given by name or path;
-    with `kept`, parts shared by variants are one object, checked once.
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec.
+    changes : mapping of str to value
+        New values as specs write them, by path: names of fields joined by points; items of a list by number from 0 in
+        brackets, or by their `name` (`route.sections.incline.lift`).
+    resolve : callable, optional
+        Looks up compounds given by name or path.
+    kept : ReuseCache, optional
+        Cache kept from call to call: parts shared by variants are one object, checked once.
+
+    Raises
+    ------
+    InputError
+        A path leads nowhere, two contradict each other, or a value is refused; each on its own line with its path.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> line = conveyor.load("examples/specs/overland.yaml")  # doctest: +SKIP
+    >>> with_fields(line, {"belt.speed": "5.5 m/s"}).belt_speed  # doctest: +SKIP
+    5.5
     """
     tree: dict[str, Any] = {}
     refused: list[str] = []
@@ -58,7 +78,13 @@ def with_fields(
 
 
 def field_value(conveyor: Conveyor, path: str) -> Any:
-    """Value of a field by its path; None where a part on the way is not given."""
+    """Value of a field by its path; None where a part on the way is not given.
+
+    Raises
+    ------
+    InputError
+        The path leads nowhere.
+    """
     value: Any = conveyor
     way = ""
     for part in _path_parts(path):
@@ -82,7 +108,13 @@ class _NewValue:
 
 
 def check_field_path(path: str) -> None:
-    """Refuse text that is not the path of a field; the field need not exist."""
+    """Refuse text that is not the path of a field; the field need not exist.
+
+    Raises
+    ------
+    InputError
+        The text is no path.
+    """
     _path_parts(path)
 
 

@@ -29,7 +29,13 @@ _KINDS: Final[dict[type[BaseModel], tuple[str, str]]] = {
 
 
 def read_file_of(model: type[M], path: Path, context: Mapping[str, Any] | None = None) -> M:
-    """Read a model from a file as `read_model`; of a file of another kind the error says what reads it."""
+    """Read a model from a file as `read_model`; of a file of another kind the error says what reads it.
+
+    Raises
+    ------
+    InputError
+        As `read_model`, or the file is of another kind.
+    """
     try:
         return read_model(model, path, context)
     except InputError:

@@ -80,7 +80,13 @@ _MAKER_FIELDS = {"pulleys": {"diameter", "shaft_diameter", "mass"}}
 
 
 def find_item(kinds: Collection[MakerKind], name: str, info: ValidationInfo, others: Iterable[str] = ()) -> ListedItem:
-    """Item of the makers' lists of the validation context, without one of those for the working folder."""
+    """Item of the makers' lists of the validation context, without one of those for the working folder.
+
+    Raises
+    ------
+    InputError
+        There is none of that name, or there are two.
+    """
     lists: MakerLists = (info.context or {}).get("lists") or MakerLists()
     return lists.item(kinds, name, others)
 

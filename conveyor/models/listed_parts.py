@@ -21,6 +21,11 @@ def with_listed_parts(data: Mapping[str, Any], drive: type[BaseModel], info: Val
     """Fill in what the listed parts of a drive give; what it gives itself goes before.
 
     Efficiencies become parts of the first drive's train, which holds for all drives.
+
+    Raises
+    ------
+    SpecError
+        A name is in no list, or two items are of one kind.
     """
     named = data.get("listed")
     if not isinstance(named, list | tuple) or not named:

@@ -94,7 +94,13 @@ def project_folder(base: Path) -> Path | None:
 
 
 def personal_folders() -> list[Path]:
-    """Folders of CONVEYOR_LIBRARY, which exist; without it that in the home folder, whether it is there or not."""
+    """Folders of CONVEYOR_LIBRARY; without it that in the home folder, whether it is there or not.
+
+    Raises
+    ------
+    InputError
+        A folder of the variable does not exist.
+    """
     given = [Path(each) for each in os.environ.get(ENVIRONMENT, "").split(os.pathsep) if each]
     for folder in given:
         if not folder.is_dir():
@@ -112,7 +118,13 @@ def library_folders(base: Path) -> list[Path]:
 
 
 def maker_items(base: Path, *further: Path) -> list[tuple[ListedItem, Path]]:
-    """Every item for specs of a folder and in further folders of lists, with the file it is in."""
+    """Every item for specs of a folder and in further folders of lists, with the file it is in.
+
+    Raises
+    ------
+    InputError
+        A file is refused: every error on its line.
+    """
     folders = {each.resolve(): each for each in (*library_folders(base), *further)}.values()
     files = [path for folder in folders for path in sorted(folder.glob(f"*{SUFFIX}"))]
     return [(item, path) for path in files for item in read_model(MakerList, path).items]
@@ -133,7 +145,22 @@ class MakerLists:
         return [item for item, _ in self._items if item.kind == kind]
 
     def item(self, kinds: Collection[MakerKind], name: str, others: Iterable[str] = ()) -> ListedItem:
-        """Item of a name, in any case, of some kinds; `others`: names of the package's own library, for the message."""
+        """Item of a name, in any case.
+
+        Parameters
+        ----------
+        kinds : collection of MakerKind
+            Kinds that it may be of.
+        name : str
+            Its name.
+        others : iterable of str
+            Names of the package's own library, for the message.
+
+        Raises
+        ------
+        InputError
+            There is none, with the names there are; or there are two.
+        """
         folded = name.casefold().strip()
         found = [(item, path) for item, path in self._items if item.kind in kinds and item.name.casefold() == folded]
         if len(found) == 1:

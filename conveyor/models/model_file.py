@@ -17,7 +17,13 @@ M = TypeVar("M", bound=BaseModel)
 
 
 def read_model(model: type[M], path: Path, context: Mapping[str, Any] | None = None) -> M:
-    """Read a model from a YAML or JSON file; all its errors at once, each with file, line, column and field."""
+    """Read a model from a YAML or JSON file.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or is refused; all its errors at once, each with file, line, column and field.
+    """
     document = read_document(path)
     faults = list(document.findings)
     try:

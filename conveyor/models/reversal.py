@@ -75,11 +75,21 @@ def _drive_problems(drive: Drive) -> Iterator[Problem]:
 
 
 def with_direction_reversed(conveyor: Parts) -> Parts:
-    """Conveyor whose carry strand runs from the head of the spec to its tail, if no part works in one direction only.
+    """Conveyor whose carry strand runs from the head of the spec to its tail.
 
     Sections are met from the other end, with their lifts and horizontal curves the other way; feeding points, drives,
     pulleys, take-up and transitions stay where they stand. Cleaners are at the end that discharges; the trajectory and
     belt scales belong to the direction of the spec and are left out.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec.
+
+    Raises
+    ------
+    InputError
+        A part works in one direction only; every refusal on its own line.
     """
     problems = [f"{'.'.join(map(str, one.location))}: {one.message}" for one in reversal_problems(conveyor)]
     if problems:

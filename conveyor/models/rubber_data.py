@@ -297,7 +297,13 @@ class StrainDependence(Model):
     """One entry for each temperature and frequency."""
 
     def factors(self) -> AmplitudeFactors:
-        """Return the factors on E' and E'' in SI."""
+        """Return the factors on E' and E'' in SI.
+
+        Raises
+        ------
+        InputError
+            Sweeps that do not ascend or contradict the reference strain.
+        """
         from conveyor.rubber import AmplitudeFactors
 
         return AmplitudeFactors([sweep.sweep() for sweep in self.sweeps], si(self.reference_strain))

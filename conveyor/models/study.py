@@ -199,7 +199,13 @@ class Limit(Model):
         return self
 
     def ends(self, name: str, kind: str) -> tuple[float | None, float | None]:
-        """Least and most allowed of a figure, by its name and kind [SI]."""
+        """Least and most allowed of a figure, by its name and kind [SI].
+
+        Raises
+        ------
+        InputError
+            The limits are of another kind.
+        """
         least, most = _limit_value(self.least, name, kind), _limit_value(self.most, name, kind)
         if least is not None and most is not None and least > most:
             raise InputError(f"limits: {name}: least, {self.least}, is above most, {self.most}")
@@ -457,7 +463,13 @@ class SearchPlan(VariedSpec):
 
 
 def with_states(plan: Plan, base: Conveyor) -> Plan:
-    """Plan with the spec's duty as its states, where `states` is "duty"."""
+    """Plan with the spec's duty as its states, where `states` is "duty".
+
+    Raises
+    ------
+    InputError
+        The spec has no duty, or the states are in a file that was not read.
+    """
     if not isinstance(plan.states, str):
         return plan
     if plan.states != DUTY_STATES:

@@ -38,10 +38,24 @@ def scale_quantity(value: Quantity, factor: float) -> Quantity:
 
 
 def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = None) -> Conveyor:
-    """Conveyor with the loading of a case, at a belt speed; that of the spec without one.
+    """Conveyor with the loading of a case, at a belt speed.
 
     A loading point resists only where bulk lies on the section it feeds; a tripper lifts and speeds up what the section
     before it brings.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec.
+    case : LoadCase
+        Load case.
+    speed : Quantity, optional
+        Belt speed; that of the spec without it.
+
+    Raises
+    ------
+    InputError
+        The bulk does not fit the belt, a loading point is faster than it, or the route has not a section of the case.
     """
     for name in case.sections:
         for problem in conveyor.route.section_problem(("sections",), name):
@@ -114,7 +128,13 @@ def _feed_sections(conveyor: Conveyor, sections: Sequence[Section], speed: Quant
 
 
 def with_temperature(conveyor: Conveyor, temperature: Quantity) -> Conveyor:
-    """Conveyor with its covers at a temperature; the air changes by the same difference."""
+    """Conveyor with its covers at a temperature; the air changes by the same difference.
+
+    Raises
+    ------
+    InputError
+        A compound is not known there.
+    """
     warmth = _temperature_changes(conveyor, temperature)
     return conveyor.replace(ambient=conveyor.ambient.replace(**warmth)) if warmth else conveyor
 
@@ -192,7 +212,13 @@ def _temperature_setting(loaded: Conveyor | ConveyorError, temperature: Quantity
 
 
 def require_rolling_contact(conveyor: Conveyor, what: str) -> None:
-    """Refuse a classical method where forces must follow the rubber."""
+    """Refuse a classical method where forces must follow the rubber.
+
+    Raises
+    ------
+    InputError
+        The method of the spec is not viscoelastic.
+    """
     method = conveyor.calculation.method
     if method != "viscoelastic":
         raise InputError(
@@ -205,6 +231,11 @@ def with_compound(conveyor: Conveyor, compound: RubberCompound, cover: CoverChoi
 
     A top cover without a compound has that of the bottom cover; it keeps the old one where only the bottom cover
     changes.
+
+    Raises
+    ------
+    InputError
+        The belt's mass does not fit the compound's density.
     """
     belt = conveyor.belt
     top, bottom = belt.top_cover, belt.bottom_cover
@@ -227,13 +258,27 @@ def with_alternative(conveyor: Conveyor, compound: RubberCompound, other: Rubber
 
 
 def with_belt_temperature_changed(conveyor: Conveyor, change: float) -> Conveyor:
-    """Conveyor with its covers warmer or colder by a difference [K]."""
+    """Conveyor with its covers warmer or colder by a difference [K].
+
+    Raises
+    ------
+    InputError
+        A compound is not known there.
+    """
     at = float(f"{conveyor.temperature + change:.9g}")
     return with_temperature(conveyor, from_si(at, "temperature", "K"))
 
 
 def with_runs(conveyor: Conveyor, runs: Sequence[MeasuredRun]) -> list[Conveyor]:
-    """Conveyor as measured in each run, named in its errors; runs of equal state share one object."""
+    """Conveyor as measured in each run; runs of equal state share one object.
+
+    Raises
+    ------
+    InputError
+        The bulk does not fit the belt; the run is named.
+    RangeError
+        A compound is not known at a run's temperature.
+    """
     known: dict[tuple[float | None, ...], Conveyor] = {}
     for number, run in enumerate(runs, start=1):
         if run.state not in known:

@@ -121,6 +121,11 @@ def pressure_under_rolls(contacts: Contacts, *, system: System = "SI") -> Figure
 
     In MPa over mm, or psi over inches; positive on the side the belt comes from. The load is that at the inner end of
     a wing roll, or along a middle roll.
+
+    Raises
+    ------
+    NoSolutionError
+        A contact that was interpolated between others has no answer of its own.
     """
     figure, (axis,) = stacked_axes(1, 3.6)
     stress, way, line = (display_unit(kind, system, large=True) for kind in ("pressure", "thickness", "line force"))
@@ -186,6 +191,11 @@ def case_power(study: CalculatedCases, over: PowerAxis, at: float | None = None,
     """Motor power [kW, hp] of every load case over temperature at one speed [m/s], or over speed at a temperature [K].
 
     By default the speed or temperature that most cases have.
+
+    Raises
+    ------
+    InputError
+        No case was answered, or none there.
     """
     name, sign = ("speed", "m/s") if over == "temperature" else ("temperature", "K")
     values = [getattr(result, name) for result in study.results]

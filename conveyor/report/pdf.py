@@ -92,7 +92,13 @@ def require_typst() -> None:
 
 
 def page_pdf(page: Html, paper: Paper) -> bytes:
-    """Return a page of `conveyor.report.page_elements` as PDF on its paper; the same page gives the same bytes."""
+    """Return a page of `conveyor.report.page_elements` as PDF on its paper; the same page gives the same bytes.
+
+    Raises
+    ------
+    InputError
+        The package typst, or a font for the page's language, is not installed.
+    """
     require_typst()
     import typst
 

@@ -189,6 +189,11 @@ def power_over(comparison: PowerScenes, over: PowerAxis, at: float | None = None
     """Motor power of every compound over temperature at one speed [m/s], or over belt speed at one temperature [K].
 
     By default that of `fixed_condition`. Bands of the fit's replicas are shaded; dotted beyond the rubber's data.
+
+    Raises
+    ------
+    InputError
+        No scene is solved there, or no temperature for all compounds.
     """
     chosen, other = fixed_condition(comparison, over) if at is None else at, _OTHER_AXIS[over]
     if chosen is None:
@@ -305,6 +310,11 @@ def compared_loss_tangents(
     """Loss tangents of all compounds at one temperature [K], and the band that the conveyor's rolls excite there.
 
     By default the temperature nearest the spec's that is solved for every compound.
+
+    Raises
+    ------
+    NoSolutionError
+        No temperature is solved for every compound.
     """
     at = [{row.temperature for row in comparison.coverage if row.compound == c.name} for c in comparison.compounds]
     common = set.intersection(*at)
