@@ -42,7 +42,7 @@ def test_every_example_is_accepted(model: type[BaseModel], path: str) -> None:
     if leaf.kind == "reference" or (model, path) == (SizingDuty, "covers"):
         return
     shown = example_value(model, path)
-    assert shown not in (None, "")
+    assert shown not in (None, ""), f"{path}: give an example in conveyor/_reference/examples.yaml"
     types = annotations(model, path)
     assert types
     TypeAdapter(types[0] if len(types) == 1 else Union[tuple(types)]).validate_python(  # noqa: UP007

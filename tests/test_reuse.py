@@ -13,10 +13,12 @@ from conveyor.calculated_conveyor import Variant
 from conveyor.errors import ConveyorError
 from conveyor.line.known_test_factors import KnownTestFactors
 from conveyor.line.stretches import CurveLoads
+from conveyor.models import Conveyor
 from conveyor.models.base import Model
 from conveyor.models.fields import with_fields
 from conveyor.preparation import Preparation, PreparedLine
 from conveyor.reuse import ReuseCache
+from conveyor.starter.format_reference import example_value, format_fields
 from conveyor.units import is_quantity
 
 SPECS = Path(__file__).parents[1] / "examples" / "specs"
@@ -71,6 +73,23 @@ def test_a_line_found_is_the_line_made_anew(name):
         tried += 1
         assert line(changed, kept) == line(changed, ReuseCache()), path
     assert tried > 40
+
+
+def test_a_field_given_for_the_first_time_makes_a_line_anew():
+    """A field that is in none of the parts of a key must be added to it, in `Preparation._line_without_drag`."""
+    spec, kept, tried = conveyor.load(SPECS / "curved.yaml"), ReuseCache(), 0
+    line(spec, kept)
+    for path in format_fields(Conveyor):
+        value = None if "[]" in path else example_value(Conveyor, path)
+        if value is None:
+            continue
+        try:
+            changed = with_fields(spec, {path: value})
+        except ConveyorError:
+            continue
+        tried += 1
+        assert line(changed, kept) == line(changed, ReuseCache()), f"{path}: not in the key of a part"
+    assert tried > 150
 
 
 def test_equal_specs_share_their_parts():

@@ -23,6 +23,10 @@ _MARGIN_DIGITS: Final = 9
 """Digits of margins, so that rounding does not decide between equals, see `conveyor.loop.ties`."""
 
 
+_ROUNDING: Final = 10.0**-_MARGIN_DIGITS
+"""Share of a limit by which rounding of units and sums may pass it: 0.35 of 400 mm is 140 mm."""
+
+
 @dataclass(frozen=True)
 class Check:
     """Result of one criterion.
@@ -147,7 +151,7 @@ def check_against_limit(  # noqa: PLR0917 reads as the sentence it checks
     why: Message | str | None = None,
     where: str = "",
 ) -> Check:
-    """Check a figure against its limit.
+    """Check a figure against its limit; at the limit itself, but for rounding, it holds.
 
     Parameters
     ----------
@@ -180,7 +184,8 @@ def check_against_limit(  # noqa: PLR0917 reads as the sentence it checks
         shortfall = message(missing)
         return Check(key, name, calculated, None, kind, shown, shortfall, "not checked", None, relation, where)
     if holds is None:
-        holds = calculated >= required if relation == "at least" else calculated <= required
+        beyond = calculated - required if relation == "at most" else required - calculated
+        holds = beyond <= _ROUNDING * abs(required)
     if asked is None:
         asked = message(f"{relation} {{}}{f' ({source})' if source else ''}", (required, kind))
     if isinstance(why, str):

@@ -132,6 +132,16 @@ def test_lumps_are_a_third_of_it(spec, lump, verdict):
     assert check.verdict == verdict
 
 
+def test_a_lump_at_the_limit_fits(spec):
+    """35 % of 400 mm is 140 mm, but not in floats."""
+    pipes = {f"idlers.{strand}.pipe.{name}": value for strand in ("carry", "return")
+             for name, value in (("diameter", "400 mm"), ("lump", "35 %"))}  # fmt: skip
+    given = with_fields(spec, {**pipes, "belt.wear": {"lump": "140 mm", "loading": "low"}})
+    (check,) = pipe_lumps(calculate(given))
+    assert check.calculated == pytest.approx(check.required, rel=1e-12)
+    assert check.verdict == "pass"
+
+
 def test_a_stiffer_belt_costs_power_and_both_strands_run_on_the_bottom_cover(spec):
     stiff = with_fields(spec, {"belt.transverse_stiffness": "12 N*m"})
     assert calculate(stiff).balance.power.belt > calculate(spec).balance.power.belt

@@ -115,7 +115,7 @@ def best_design_table(sizing: CalculatedSizing, system: System) -> Table:
         Figure("motor power", "power", found.balance.power.motor, "tile"),
         Figure("belt safety", "ratio", best.safety, "tile"),
         Figure("take-up", "force", found.balance.settled.setting, "tile"),
-        Figure("energy a year", money, float(best.costs.yearly["energy"]), "tile"),
+        Figure("energy cost a year", money, float(best.costs.yearly["energy"]), "tile"),
         Figure("cost a year", money, best.year, "tile"),
     )
     return figure_table("best_design", "", "The best design", rows)
@@ -156,7 +156,7 @@ def design_table(sizing: CalculatedSizing) -> Table:
         Column("take-up", "force", "1.found.balance.settled.setting", None, json="take_up_N"),
         Column("L10 of a roll set", "duration", "1.roll_life", None, json="roll_life_h"),
         Column("capital", money, "1.costs.whole_capital", None, json="capital"),
-        Column("energy a year", money, "1.costs.yearly.energy", None, json="energy_per_year"),
+        Column("energy cost a year", money, "1.costs.yearly.energy", None, json="energy_cost_per_year"),
         Column("cost a year", money, "1.year", json="cost_per_year"),
         Column("over the best", "share", lambda row: row[1].year / saved - 1.0, json="over_the_best"),
         Column("why", "text", lambda row: _cost_reason(sizing, row[0] - 1), json="why"),
@@ -272,9 +272,11 @@ def sweep_table(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> T
         Column("speed", "speed", "1.speed", json="speed_m_per_s"),
         Column("motor power", "power", "2.found.balance.power.motor", json="motor_power_kW"),
         Column("belt", "text", lambda row: row[2] and _belt_name(row[2]), json="belt"),
-        Column("energy a year", money, "2.costs.yearly.energy", json="energy_per_year", page=None),
-        Column("idlers a year", money, lambda row: row[2] and idler_cost(row[2]), json="idlers_per_year", page=None),
-        Column("belt a year", money, "2.costs.yearly.belt", json="belt_per_year", page=None),
+        Column("energy cost a year", money, "2.costs.yearly.energy", json="energy_cost_per_year", page=None),
+        Column(
+            "idler cost a year", money, lambda row: row[2] and idler_cost(row[2]), json="idlers_per_year", page=None
+        ),
+        Column("belt cost a year", money, "2.costs.yearly.belt", json="belt_per_year", page=None),
         Column("cost a year", money, "2.year", json="cost_per_year"),
         Column("calculated for", "text", "4", json="calculated_for"),
         Column("no design because", "text", "3", json="why"),
