@@ -4,7 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 OUT ?= out
 
-.PHONY: report test lint types floors docs check bench release tag clean
+.PHONY: report test oldest lint types floors docs check bench release tag clean
 
 $(VENV)/.run: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -45,6 +45,16 @@ docs: $(VENV)/.docs
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 
 check: test lint types floors docs
+
+# The tests with the oldest packages that pyproject.toml allows.
+$(VENV)-oldest/.test: pyproject.toml
+	$(PYTHON) -m venv $(VENV)-oldest
+	$(VENV)-oldest/bin/python -m pip install --quiet uv
+	$(VENV)-oldest/bin/uv pip install --quiet --python $(VENV)-oldest/bin/python --resolution lowest-direct -e ".[test]"
+	@touch $@
+
+oldest: $(VENV)-oldest/.test
+	$(VENV)-oldest/bin/python -m pytest -n auto --dist worksteal
 
 bench: $(VENV)/.test
 	$(BIN)/python benchmarks/speed.py

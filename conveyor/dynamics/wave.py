@@ -282,6 +282,6 @@ class _Motion:
             impulses[:, k] = by = (moved.belt - going) / reply.own
             lacking = lacking + np.vecdot(by, reply.of_take_up)
             if len(self.turns) > 1:
-                near += np.vecmat(by, reply.near).reshape(near.shape)
+                near += (by[:, None] @ reply.near).reshape(near.shape)
         self.driving, self.rubbing, self.rims, self.on_pulleys, self.beside = force, rubbing, rim, belt, beside
         return impulses, lacking

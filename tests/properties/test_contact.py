@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve
 
 RTOL = 1e-5
-BOUNDED = settings(max_examples=400, deadline=None, derandomize=True)
-FEW = settings(max_examples=100, deadline=None, derandomize=True)
+BOUNDED = settings(max_examples=400, derandomize=True)
+FEW = settings(max_examples=100, derandomize=True)
 
 
 def decades(low, high):

@@ -43,7 +43,7 @@ def problems(draw: st.DrawFn) -> ContactProblem:
 
 
 @given(problem=problems())
-@settings(max_examples=60, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+@settings(max_examples=60, derandomize=True, suppress_health_check=list(HealthCheck))
 def test_every_scene_ends_well(problem):
     found = solve(problem, rtol=RTOL, throw=False)
     if found.status is not Status.OK:
@@ -59,7 +59,7 @@ def test_every_scene_ends_well(problem):
 
 
 @given(scenes=st.lists(problems(), min_size=2, max_size=4))
-@settings(max_examples=8, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+@settings(max_examples=8, derandomize=True, suppress_health_check=list(HealthCheck))
 def test_neighbours_in_a_batch_change_nothing(scenes):
     for alone, together in zip(
         [solve(p, rtol=RTOL, throw=False) for p in scenes], solve_many(scenes, RTOL), strict=True

@@ -121,7 +121,7 @@ def test_glass_transition_of_twelve_decades_of_modulus() -> None:
     check_inversion(PronySeries(1.0, np.logspace(0, 12, 25), np.logspace(-18, 6, 25)))
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(st.lists(st.tuples(st.floats(-10, 10), st.floats(-12, 12)), min_size=1, max_size=30))
 def test_inversion_of_any_spectrum(lines: list[tuple[float, float]]) -> None:
     logs = {round(t, 6): e for t, e in lines}
