@@ -34,6 +34,8 @@ class HopperOutlet:
 
     Attributes
     ----------
+    length : float
+        Of the outlet along the belt, over which the bulk is pulled [m].
     initial_factor, flow_factor : float
         Load after filling and in flow over ρ g L B² [-].
     initial_load, flow_load : float
@@ -46,6 +48,7 @@ class HopperOutlet:
         Skirts between outlet and belt; None where their friction is not asked.
     """
 
+    length: float
     initial_factor: float
     flow_factor: float
     initial_load: float
@@ -57,13 +60,13 @@ class HopperOutlet:
     @classmethod
     def of(cls, hopper: Hopper, conveyor: Conveyor, *, skirt_friction: float) -> HopperOutlet:
         """Outlet of a hopper over a conveyor's belt, between skirts of a friction [-]."""
-        width, inside = si(hopper.outlet_width), si(hopper.internal_friction)
+        length, width, inside = si(hopper.outlet_length), si(hopper.outlet_width), si(hopper.internal_friction)
         initial, flow = hopper.load_factors
         after_filling, flowing = (
             hopper_load(
                 factor,
                 density=si(conveyor.material.heaviest),
-                outlet_length=si(hopper.outlet_length),
+                outlet_length=length,
                 outlet_width=width,
                 gravity=si(conveyor.calculation.gravity),
             )
@@ -82,9 +85,10 @@ class HopperOutlet:
                 hopper.skirt_pressure_ratio,
                 skirt_friction,
                 si(conveyor.material.heaviest),
-                si(hopper.outlet_length),
+                length,
                 width,
                 si(hopper.gate_height),
                 si(conveyor.calculation.gravity),
             )
-        return cls(initial, flow, after_filling, flowing, hopper.shear_friction or math.sin(inside), rated, skirts)
+        shear = hopper.shear_friction or math.sin(inside)
+        return cls(length, initial, flow, after_filling, flowing, shear, rated, skirts)
