@@ -11,7 +11,7 @@ from conveyor.units.sentences import escape_braces
 
 
 def belt_feeder(result: CalculatedConveyor) -> Iterator[Check]:
-    """The gate passes the flow, the belt is slow enough to pull it out."""
+    """The gate passes the flow, the hopper is in mass flow or its load given, the belt is slow enough."""
     line = result.line
     loaded = [(point, hopper) for point in line.loading if (hopper := point.loaded_hopper) is not None]
     for point, hopper in loaded:
@@ -21,6 +21,15 @@ def belt_feeder(result: CalculatedConveyor) -> Iterator[Check]:
             "mass flow", why=f"the gate of the hopper{name} passes {{required}} at this speed, {{calculated}} are "
             "asked: raise the gate, widen the outlet or run faster",
         )  # fmt: skip
+        if hopper.mass_flow_angle is not None:
+            yield check_against_limit(
+                "mass_flow", f"half angle of the hopper{name} for mass flow", hopper.half_angle, "at most",
+                hopper.mass_flow_angle, "angle", source="Jenike's chart for plane flow, general knowledge",
+                why=f"the walls of the hopper{name} stand at {{calculated}} to the vertical, mass flow ends at "
+                "{required}: funnel flow is likely, and the load in flow is more than the one of mass flow taken here, "
+                "at most the one after filling; give flow_factor, up to that of filling, or make the hopper steeper or "
+                "smoother",
+            )  # fmt: skip
     if loaded:
         yield check_against_limit(
             "feeder_speed", "belt speed under a hopper", line.speed, "at most", FEEDER_SPEED.value, "speed",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from conveyor.laws.feeder import gate_flow, hopper_load, hopper_skirt_resistance
+from conveyor.laws.feeder import gate_flow, hopper_load, hopper_skirt_resistance, mass_flow_half_angle
 from conveyor.models import Conveyor
 from conveyor.models.hoppers import Hopper
 from conveyor.units import si
@@ -44,6 +44,10 @@ class HopperOutlet:
         Pull-out force over that load [-].
     rated_flow : float
         Mass flow under the gate at belt speed [kg/s].
+    half_angle : float
+        Slope of the hopper's walls to the vertical [rad].
+    mass_flow_angle : float or None
+        The largest in mass flow [rad]; None where the load in flow is given.
     skirts : HopperSkirts or None
         Skirts between outlet and belt; None where their friction is not asked.
     """
@@ -55,6 +59,8 @@ class HopperOutlet:
     flow_load: float
     shear_friction: float
     rated_flow: float
+    half_angle: float
+    mass_flow_angle: float | None
     skirts: HopperSkirts | None = None
 
     @classmethod
@@ -90,5 +96,8 @@ class HopperOutlet:
                 si(hopper.gate_height),
                 si(conveyor.calculation.gravity),
             )
-        shear = hopper.shear_friction or math.sin(inside)
-        return cls(length, initial, flow, after_filling, flowing, shear, rated, skirts)
+        steep = None
+        if hopper.flow_factor is None:
+            steep = mass_flow_half_angle(inside, wall_friction=si(hopper.wall_friction))
+        shear, slope = hopper.shear_friction or math.sin(inside), si(hopper.half_angle)
+        return cls(length, initial, flow, after_filling, flowing, shear, rated, slope, steep, skirts)

@@ -9,6 +9,7 @@ import conveyor
 import conveyor.models
 from conveyor.dynamics.simulation import simulate_scenarios
 from conveyor.errors import InputError
+from conveyor.report.tables.feeder_tables import hopper_state_table
 from conveyor.units import si
 from tests.command_line import run
 
@@ -31,6 +32,12 @@ def forces(result):
 
 def checks(result):
     return {each.key: each for each in result.checks}
+
+
+def cells_of(result):
+    """Columns of the table of the states of a feeder, by their names."""
+    table = hopper_state_table(result)
+    return {column.label: [column.get(row) for row in table.rows] for column in table.columns}
 
 
 def filled_grip(result):
@@ -119,6 +126,8 @@ def test_belt_pulleys_and_transitions_bear_the_start_under_the_filled_hopper(fee
     assert head.torque == pytest.approx(filled.force * 0.315, rel=1e-12)
     assert head.largest.state == filled.name == "hopper filled"
     (zone,) = result.belt_duty.transitions
+    torques = cells_of(result)["torque at the drive shaft"]
+    assert torques == pytest.approx([state.motion.force * 0.315 for state in result.hopper_states], rel=1e-12)
     assert zone.highest == pytest.approx(float(filled.ends[-1]) / 1.2, rel=1e-12)
     assert result.balance.tensions.largest == pytest.approx(filled.largest, rel=1e-12)
     assert result.belt_duty.largest_steady < 0.75 * filled.largest
@@ -234,6 +243,23 @@ def test_gate_and_speed_are_checked(feeder):
     assert checks(conveyor.analyse(with_hopper(feeder, gate_height="200 mm")))["feeder_flow"].failed
     fast = feeder.replace(belt=feeder.belt.replace(speed="0.8 m/s"))
     assert checks(conveyor.analyse(fast))["feeder_speed"].failed
+
+
+@pytest.mark.parametrize(
+    ("slope", "fails"),
+    [
+        ("34 deg", False),
+        ("45 deg", True),  # Jenike's limit for δ 50 deg, φ 20 deg: 45.85 = e^(3.75 x 1.0201), (45.85 - 20)/0.7509
+        ("55 deg", True),
+    ],
+)
+def test_a_hopper_beyond_mass_flow_fails_unless_its_load_is_given(feeder, slope, fails):
+    flat = {"half_angle": slope, "top_width": "4 m"}
+    found = checks(conveyor.analyse(with_hopper(feeder, **flat)))["mass_flow"]
+    assert found.failed is fails
+    assert math.degrees(found.required) == pytest.approx(34.42, abs=0.01)
+    assert not fails or "funnel flow is likely" in str(found.why)
+    assert "mass_flow" not in checks(conveyor.analyse(with_hopper(feeder, **flat, flow_factor=0.9)))
 
 
 @pytest.mark.parametrize(
