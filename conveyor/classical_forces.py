@@ -121,7 +121,9 @@ def hopper_forces(
     for point in line.loading:
         if (hopper := point.loaded_hopper) is None:
             continue
-        here = partial(Force, kind="special", spot=point.spot, place=point.place, bulk=point.comes_with)
+        here = partial(
+            Force, kind="special", spot=point.spot, place=point.place, reach=hopper.length, bulk=point.comes_with
+        )
         pull, support, skirts = hopper_pull(line, point.section, hopper, load(hopper))
         yield here(key="hopper_pull", name=f"pull-out under the hopper{point.name}", newtons=pull,
                    source="load in flow x friction of the shear, Arnold, McLean and Roberts")  # fmt: skip

@@ -35,6 +35,8 @@ class Force:
         True if not by friction, so that no uncertainty of friction changes it.
     spot, place : LoopPosition or None, str
         Position in the loop, and in words; None and empty for forces along the belt.
+    reach : float
+        Length from its spot in running direction over which it acts evenly [m]; 0 at a single place.
     short : str
         Name of its column in tables of sections; `name` without it.
     assumed : bool
@@ -55,6 +57,7 @@ class Force:
     certain: bool = False
     spot: LoopPosition | None = None
     place: str = ""
+    reach: float = 0.0
     short: str = ""
     assumed: bool = False
     bulk: int | None = None

@@ -65,9 +65,7 @@ CONTACT_CRITERIA: Final = (cover_penetration, rubber_coverage)
 """Criteria that need the contacts of all rolls; the others need forces and tensions only."""
 
 
-_CALCULATED_LOADS_ONLY: Final = frozenset(
-    {"belt_flap", "feeder_grip", "load_sharing", "penetration", "rubber_coverage"}
-)
+_CALCULATED_LOADS_ONLY: Final = frozenset({"belt_flap", "load_sharing", "penetration", "rubber_coverage"})
 """Keys of criteria checked under the calculated loads only."""
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 
 SPEEDS = (0.1, 0.5)
 """Further speeds, over the steady one, at which the resistances are computed [-]."""
+_PIECES = 16  # of a force over a length of the belt; it is lumped at the cells anyway
 _WITH_SPEED = frozenset({"acceleration", "loading_skirts"})
 """Forces of bulk that is fed in proportion to the belt's speed."""
 
@@ -285,17 +286,28 @@ def _point_lumps(result: CalculatedConveyor, distance: Callable[[LoopPosition], 
         if force.spot is None:
             continue
         at, stand = distance(force.spot), force.spot.stand
-        if force.kind == "lift":
+        if force.reach > 0.0:
+            yield from _split_lump(_Lump(at, stand, friction=force.total), force.reach)
+        elif force.kind == "lift":
             yield _Lump(at, stand, weight=force.total)
         elif force.key in _WITH_SPEED:
             yield _Lump(at, stand, square=force.total / speed**2)
         else:
             yield _Lump(at, stand, friction=force.total)
     for point in result.line.loading:
-        yield _Lump(distance(point.spot), point.spot.stand, stuck=initial_pull(result.line, point))
+        if (hopper := point.loaded_hopper) is not None:
+            held = _Lump(distance(point.spot), point.spot.stand, stuck=initial_pull(result.line, point))
+            yield from _split_lump(held, hopper.length)
     for pulley in result.line.pulleys:
         if not pulley.driven:
             yield _Lump(distance(pulley.spot), pulley.spot.stand, mass=PULLEY_INERTIA.value * pulley.mass)
+
+
+def _split_lump(whole: _Lump, reach: float) -> Iterator[_Lump]:
+    """Equal pieces of a lump that acts evenly from its place over a reach [m]."""
+    for k in range(_PIECES):
+        at = whole.at + (k + 0.5) / _PIECES * reach
+        yield replace(whole, at=at, friction=whole.friction / _PIECES, stuck=whole.stuck / _PIECES)
 
 
 def _space_drives(times: Array, whole: float, step: float) -> list[float]:

@@ -175,6 +175,45 @@ def flow_load_factor(half_angle: float, *, internal_friction: float, wall_fricti
     return factor
 
 
+def mass_flow_half_angle(internal_friction: float, *, wall_friction: float) -> float:
+    """Largest half angle of a slot hopper in mass flow, α = (e^(3.75 · 1.01^((δ - 30)/10)) - φ)/(0.725 tan^(1/5) δ).
+
+    Parameters
+    ----------
+    internal_friction : float
+        δ, effective angle of internal friction [rad], between 0 and π/2; the chart has 30 to 70 deg.
+    wall_friction : float
+        φ of bulk on the walls [rad], above 0 and below δ.
+
+    Returns
+    -------
+    float
+        α to the vertical [rad]; 0 where the walls are too rough at any slope.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    A fit in degrees of Jenike's chart for plane flow (Bulletin 123, 1964) by Arnold, McLean and Roberts (1982),
+    general knowledge. The fit of ter Borg (1986) has 33.6 deg where this one has 34.4.
+
+    Examples
+    --------
+    >>> import math
+    >>> limit = mass_flow_half_angle(math.radians(50.0), wall_friction=math.radians(20.0))
+    >>> round(math.degrees(limit), 1)
+    34.4
+    """
+    require(0.0 < internal_friction < 0.5 * math.pi, "internal_friction", internal_friction, "0 to π/2")
+    require(0.0 < wall_friction < internal_friction, "wall_friction", wall_friction, "0 to internal_friction")
+    smooth = math.exp(3.75 * 1.01 ** ((math.degrees(internal_friction) - 30.0) / 10.0))
+    limit = (smooth - math.degrees(wall_friction)) / (0.725 * math.tan(internal_friction) ** 0.2)
+    return math.radians(limit) if limit > 0.0 else 0.0
+
+
 def hopper_load(
     load_factor: float, *, density: float, outlet_length: float, outlet_width: float, gravity: float
 ) -> float:

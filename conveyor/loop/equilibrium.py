@@ -35,6 +35,8 @@ START, BRAKING, DESIGN, DESIGN_START, LEAST, LEAST_BRAKING, BRAKES = (
 COASTING = "drives off"
 FILLED = "hopper filled"
 """Start of a belt feeder after standing, when it breaks the bulk away under filled hoppers."""
+RUN_OUT = "run-out"
+"""Running of a belt feeder when its hoppers are empty and the belt is still full."""
 
 
 def tension_suffices(setting: float, needed: float) -> bool:
@@ -128,14 +130,8 @@ class Equilibrium:
 
     @cached_property
     def states(self) -> dict[str, MotionState]:
-        """Tensions in every state that decides the setting, but under a filled hopper."""
-        return {name: self.closed.states.state(self.row, k, name) for name, k in self._names.items() if name != FILLED}
-
-    @cached_property
-    def filled(self) -> MotionState | None:
-        """Start after standing under filled hoppers, with the friction to design for; None without a hopper."""
-        k = self._names.get(FILLED)
-        return None if k is None else self.closed.states.state(self.row, k, FILLED)
+        """Tensions in every state that decides the setting."""
+        return {name: self.closed.states.state(self.row, k, name) for name, k in self._names.items()}
 
     @cached_property
     def _names(self) -> dict[str, int]:
@@ -207,7 +203,7 @@ class Equilibrium:
     @property
     def running(self) -> tuple[MotionState, ...]:
         """States of constant speed, in which the sag is checked."""
-        return tuple(state for state in self.states.values() if state.acceleration == 0.0)
+        return tuple(state for name, state in self.states.items() if state.acceleration == 0.0 and name != FILLED)
 
     @property
     def short(self) -> dict[str, float]:
@@ -269,9 +265,8 @@ class BatchEquilibrium:
 
     @cached_property
     def largest(self) -> Array:
-        """Highest tension of every state but under a filled hopper [N], shape (b,)."""
-        counted = self.now.occurs & np.array([name != FILLED for name in self.now.names])
-        return np.asarray(np.where(counted, self.states.extremes[1], -np.inf).max(axis=-1))
+        """Highest tension of every state [N], shape (b,)."""
+        return np.asarray(np.where(self.now.occurs, self.states.extremes[1], -np.inf).max(axis=-1))
 
     @cached_property
     def off(self) -> tuple[NDArray[np.bool_], BatchTensions]:
@@ -322,8 +317,9 @@ def solve_equilibria(
         bent = loops.with_flexure(flexure) if sags else loops
         before, now = drive, kinds.at(bent, bends)
         drive = now.resistance[:, 0]
-        running = (now.moving.acceleration == 0.0) & ~kinds.filled.astype(bool)
-        asked = np.where(now.occurs[..., None], now.moving.asked(bent.sagging(kinds.friction), running), -np.inf)
+        running = (now.moving.acceleration == 0.0) & np.array([name != FILLED for name in kinds.names])
+        sagging = bent.sagging(kinds.friction, kinds.hoppers)
+        asked = np.where(now.occurs[..., None], now.moving.asked(sagging, running), -np.inf)
         needed = asked.max(axis=(1, 2))
         setting = needed if given is None else given
         if serving is not None:
@@ -398,24 +394,29 @@ class _StateSet:
         self.braked = standing.brakes.any(axis=-1)
         design = (DESIGN, DESIGN_START) if self.raised.any() else ()
         falling = (LEAST, LEAST_BRAKING) if (self.uncertain & (loops.lift < 0.0)).any() else ()
-        filled = (FILLED,) if standing.filling.any() else ()
-        self.names = (STEADY, START, *design, *falling, *((BRAKES,) if self.braked.any() else ()), *filled)
-        self.filled = np.array([float(name == FILLED) for name in self.names])
+        self.fed = np.asarray(standing.pulls[:, 0].any(axis=-1))
+        changed = (FILLED, RUN_OUT) if self.fed.any() else ()
+        self.names = (STEADY, START, *design, *falling, *((BRAKES,) if self.braked.any() else ()), *changed)
+        self.hoppers = (
+            np.array([[name == FILLED, name == RUN_OUT] for name in self.names], dtype=float) if changed else None
+        )
         self.friction = np.ones((len(loops.frames), len(self.names)))
         self.friction[:, 2 + len(design) :] = standing.least_friction[:, None]
         for k, name in enumerate(self.names):
-            if name in {DESIGN, DESIGN_START, FILLED}:
+            if name in {DESIGN, DESIGN_START, FILLED, RUN_OUT}:
                 self.friction[:, k] = standing.design_friction
         over = np.ones_like(self.friction)
         over[:, 1::2] = pull.factor[:, None]
-        over[:, self.filled > 0.0] = 1.0
+        over[:, len(self.names) - len(changed) :] = 1.0
         self.shares, self.pushes = over[..., None] * pull.share[:, None], (over - 1.0) / loops.mass[:, None]
 
     def at(self, loops: LoopBatch, bends: Array) -> LoopStates:
         """States of the loops at given pulley resistances [N], shape (b, pulleys)."""
         standing = loops.standing
         rubbing = loops.rubbing + bends.sum(axis=-1)
-        rubs = rubbing[:, None] + self.filled * standing.filling.sum(axis=-1)[:, None]
+        rubs = np.repeat(rubbing[:, None], len(self.names), axis=-1)
+        if self.hoppers is not None:
+            rubs += standing.pulls[:, 1:].sum(axis=-1) @ self.hoppers.T
         resistance = loops.lift[:, None] + self.friction * rubs
         acceleration, forces = self.pushes * resistance, self.shares * resistance[..., None]
         occurs = np.ones(resistance.shape, dtype=bool)
@@ -435,9 +436,9 @@ class _StateSet:
             k = self.names.index(BRAKES)
             slows, acceleration[:, k], forces[:, k] = _coasting_motion(loops, resistance[:, k], standing.brakes)
             occurs[:, k] = slows & self.braked
-        if FILLED in self.names:
-            occurs[:, -1] = standing.filling.any(axis=-1)
-        moving = loops.moving(self.friction, acceleration, forces, bends, self.filled)
+        if self.hoppers is not None:
+            occurs[:, -2:] = self.fed[:, None]
+        moving = loops.moving(self.friction, acceleration, forces, bends, self.hoppers)
         return LoopStates(self.names, resistance, rubbing, moving, occurs)
 
 

@@ -23,7 +23,16 @@ from numpy.typing import NDArray
 from conveyor.forces import rubber_free_forces
 from conveyor.laws.tension import grip_tension
 from conveyor.loop.balance import Balance, OpenLoop, close_loops, raise_first_error
-from conveyor.loop.equilibrium import BRAKES, DESIGN, DESIGN_START, LEAST, LEAST_BRAKING, START
+from conveyor.loop.equilibrium import (
+    BRAKES,
+    DESIGN,
+    DESIGN_START,
+    FILLED,
+    LEAST,
+    LEAST_BRAKING,
+    RUN_OUT,
+    START,
+)
 from conveyor.loop.loop_events import loop_events
 from conveyor.loop.loop_layout import LoopLayout
 from conveyor.loop.run_up import is_start_uncontrolled, start_motion
@@ -46,19 +55,23 @@ _CANDIDATE_COUNT = 3  # highest places of the loop by the first estimate
 
 
 @dataclass(frozen=True)
-class _MotionCase:
-    """A state of motion: friction over the computed one, drive force over the resistance; None with brakes alone."""
+class MotionCase:
+    """A state of motion: friction over the computed one, drive force over the resistance; None with brakes alone.
+
+    `hoppers` is the row of `LoopEvents.hoppers` of a state in which they are filled or empty; None in flow.
+    """
 
     name: str
     friction: float
     over: float | None
+    hoppers: int | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class _TargetFigure:
     """A quantity in a state as a function of the loading: c + q·x + a (μ0 + μ·x) + Σ ω F + κ |F of a drive|."""
 
-    state: _MotionCase
+    state: MotionCase
     base: float
     more: Array
     mass: float
@@ -81,12 +94,12 @@ class SectionLoadings:
         self.count = full.line.count
         self.setting = full.settled.setting
         self.events = loop_events(full, empty)
-        self.drive_at, self.stretch_at = self.events.drives, self.events.stretches
+        self.drive_at, self.stretch_at, self.stretch_end = self.events.drives, self.events.stretches, self.events.ends
         self.rotating = np.array([drive.reduced_mass for drive in self.line.drives])
         self.brakes = np.array(self.line.brakes)
         self.shares = np.array([drive.share for drive in self.line.drives])
         least = [balance.line.loop.least for balance in (empty, full)]
-        self._resistances: dict[float, tuple[float, Array]] = {}
+        self._resistances: dict[tuple[float, int | None], tuple[float, Array]] = {}
         self.least, self.more_least = least[0], least[1] - least[0]
 
     def worst(self) -> dict[str, Loading]:
@@ -174,10 +187,10 @@ class SectionLoadings:
                 needed = grip_tension(float(forces[d]), friction=drive.friction, wrap_angle=drive.wrap_angle)
                 at = self.drive_at[d]
                 grips[d] = max(grips[d], needed - float(min(offsets[at], offsets[at + 1])))
-            if _limits_sag(state):
+            if limits_sag(state):
                 least = self.least.copy()
                 least[self.count :] += self.more_least[self.count :] * loading
-                ends = np.minimum(offsets[self.stretch_at], offsets[self.stretch_at + 1])
+                ends = np.minimum(offsets[self.stretch_at], offsets[self.stretch_end])
                 asked.append(float((least - ends).max()))
         lift, rubbing = (base + float(more @ loading) for base, more in self.at_rest)
         named = {
@@ -192,18 +205,21 @@ class SectionLoadings:
             named |= {f"grip, {drive.name}": grip for drive, grip in zip(self.line.drives, grips, strict=True)}
         return named
 
-    def resistance(self, friction: float) -> tuple[float, Array]:
+    def resistance(self, friction: float, hoppers: int | None = None) -> tuple[float, Array]:
         """Resistance of the empty belt [N], and the addition of each section's bulk, shape (n,)."""
-        known = self._resistances.get(friction)
+        known = self._resistances.get((friction, hoppers))
         if known is None:
-            known = self._resistances[friction] = self._resistance(friction)
+            base, more = self._steps(friction, hoppers)
+            known = float(base.sum()), self.events.by_section(more, self.count)
+            self._resistances[friction, hoppers] = known
         return known
 
-    def _resistance(self, friction: float) -> tuple[float, Array]:
+    def _steps(self, friction: float, hoppers: int | None = None) -> tuple[Array, Array]:
+        """Resistance of the empty belt at every event, and the addition of its section's bulk [N], shape (e,)."""
         events = self.events
         base = events.certain + friction * (events.force - events.certain)
         more = events.more_certain + friction * (events.more_force - events.more_certain)
-        return float(base.sum()), events.by_section(more, self.count)
+        return base, more if hoppers is None else more + friction * events.hoppers[hoppers]
 
     @cached_property
     def at_rest(self) -> tuple[tuple[float, Array], tuple[float, Array]]:
@@ -230,17 +246,21 @@ class SectionLoadings:
         return float(events.mass.sum()), events.by_section(events.more_mass, self.count)
 
     @cached_property
-    def _states(self) -> tuple[_MotionCase, ...]:
+    def _states(self) -> tuple[MotionCase, ...]:
         """States of motion that may govern; the loading decides which occur."""
         factor, certain, design = self.line.start_over_steady, self.line.least_friction, self.line.design_friction
-        states = [_MotionCase(STEADY, 1.0, 1.0), _MotionCase(START, 1.0, factor)]
+        states = [MotionCase(STEADY, 1.0, 1.0), MotionCase(START, 1.0, factor)]
         if design > 1.0:
-            states += [_MotionCase(DESIGN, design, 1.0), _MotionCase(DESIGN_START, design, factor)]
+            states += [MotionCase(DESIGN, design, 1.0), MotionCase(DESIGN_START, design, factor)]
         if certain < 1.0:
-            states += [_MotionCase(LEAST, certain, 1.0), _MotionCase(LEAST_BRAKING, certain, factor)]
-        return (*states, _MotionCase(BRAKES, certain, None)) if self.brakes.any() else tuple(states)
+            states += [MotionCase(LEAST, certain, 1.0), MotionCase(LEAST_BRAKING, certain, factor)]
+        if self.brakes.any():
+            states.append(MotionCase(BRAKES, certain, None))
+        if self.events.hoppers.any():
+            states += [MotionCase(name, design, 1.0, k) for k, name in enumerate((FILLED, RUN_OUT))]
+        return tuple(states)
 
-    def _occurring(self, loading: Loading) -> Iterator[_MotionCase]:
+    def _occurring(self, loading: Loading) -> Iterator[MotionCase]:
         """States that decide the take-up's setting under a loading, as in `settle`."""
         least = self._total(self.line.least_friction, loading)
         for state in self._states:
@@ -250,20 +270,28 @@ class SectionLoadings:
             elif state.name == DESIGN_START:
                 if self._total(state.friction, loading) > 0.0:
                     yield state
+            elif state.hoppers is not None:
+                if self._has_hoppers(loading):
+                    yield state
             elif state.name in {STEADY, START, DESIGN} or least < 0.0:
                 yield state
 
-    def _total(self, friction: float, loading: Loading) -> float:
-        base, more = self.resistance(friction)
+    def _has_hoppers(self, loadings: Loading) -> NDArray[np.bool_]:
+        """True where a hopper over the belt has bulk in it; of loadings in rows, shape (..., n), shape (...)."""
+        fed = np.unique(self.events.section[self.events.hoppers.any(axis=0)])
+        return np.asarray(loadings[..., fed].any(axis=-1))
+
+    def _total(self, friction: float, loading: Loading, hoppers: int | None = None) -> float:
+        base, more = self.resistance(friction, hoppers)
         return base + float(more @ loading)
 
-    def _moved(self, state: _MotionCase, loading: Loading) -> tuple[float, Array]:
+    def _moved(self, state: MotionCase, loading: Loading) -> tuple[float, Array]:
         """Acceleration [m/s²] and force of every drive [N] in a state."""
         mass = self._masses[0] + float(self._masses[1] @ loading)
-        acceleration, forces = self._motion(state, self._total(state.friction, loading), mass)
+        acceleration, forces = self._motion(state, self._total(state.friction, loading, state.hoppers), mass)
         return float(acceleration), np.asarray(forces)
 
-    def _motion(self, state: _MotionCase, resistance: Array | float, mass: Array | float) -> tuple[Array, Array]:
+    def _motion(self, state: MotionCase, resistance: Array | float, mass: Array | float) -> tuple[Array, Array]:
         """Acceleration and drive forces, shape (d,) or (d, m), at one or many resistances and masses."""
         resistance, mass = np.asarray(resistance), np.asarray(mass)
         if state.over is None:
@@ -278,13 +306,12 @@ class SectionLoadings:
         pushed, pulled = start_motion(self.full.frame.standing.pull, np.where(pulls, resistance, 1.0), mass)
         return np.where(pulls, pushed, acceleration), np.where(pulls, pulled.T, forces)
 
-    def _offsets(self, state: _MotionCase, loading: Loading, acceleration: float, forces: Array) -> Array:
+    def _offsets(self, state: MotionCase, loading: Loading, acceleration: float, forces: Array) -> Array:
         """Tension over that of the head's return strand before and behind every event [N], shape (e + 1,)."""
         events = self.events
         on = np.append(loading, False)[events.section]
-        force = events.force + on * events.more_force
-        certain = events.certain + on * events.more_certain
-        steps = certain + state.friction * (force - certain)
+        base, more = self._steps(state.friction, state.hoppers)
+        steps = base + on * more
         steps += acceleration * (events.mass + on * events.more_mass)
         steps[self.drive_at] -= forces
         return np.concatenate([[0.0], np.cumsum(steps)])
@@ -292,16 +319,22 @@ class SectionLoadings:
     @cached_property
     def _anchor(self) -> Array:
         """Weights of the offsets whose sum the take-up fixes, shape (e + 1,)."""
-        weights, line = np.zeros(self.events.force.size + 1), self.line
-        if line.take_up.keeps_length:
-            shares = line.loop.length / (2.0 * float(line.loop.way[-1]))
-            weights[self.stretch_at] += shares
-            weights[self.stretch_at + 1] += shares
-        else:
-            weights[self.events.held] = 1.0
+        if self.line.take_up.keeps_length:
+            return self._mean_weights
+        weights = np.zeros(self.events.force.size + 1)
+        weights[self.events.held] = 1.0
         return weights
 
-    def _candidates(self, state: _MotionCase) -> Iterator[_TargetFigure]:
+    @cached_property
+    def _mean_weights(self) -> Array:
+        """Weights of the tensions at every place in the mean of the loop, shape (e + 1,)."""
+        weights, ahead = np.zeros(self.events.force.size + 1), self.events.ahead
+        shares = self.line.loop.length / float(self.line.loop.way[-1])
+        for places, share in ((self.stretch_at, 0.5), (self.stretch_at + 1, 0.5 - ahead), (self.stretch_end, ahead)):
+            np.add.at(weights, places, share * shares)
+        return weights
+
+    def _candidates(self, state: MotionCase) -> Iterator[_TargetFigure]:
         """Candidate figures of a state: grips, and the highest places by estimate."""
         for d, drive in enumerate(self.line.drives):
             grip = (grip_tension(1.0, friction=drive.friction, wrap_angle=drive.wrap_angle), d)
@@ -310,17 +343,17 @@ class SectionLoadings:
         tight, low = self._estimates(state)
         for at in _places_of_largest(tight):
             yield self._sought(state, at, 1.0)
-        if _limits_sag(state):
-            for k in _places_of_largest(np.maximum(low[self.stretch_at], low[self.stretch_at + 1])):
-                for at in (self.stretch_at[k], self.stretch_at[k] + 1):
+        if limits_sag(state):
+            for k in _places_of_largest(np.maximum(low[self.stretch_at], low[self.stretch_end])):
+                for at in (self.stretch_at[k], self.stretch_end[k]):
                     yield self._sought(state, int(at), -1.0, stretch=k)
 
-    def _estimates(self, state: _MotionCase) -> tuple[Array, Array]:
+    def _estimates(self, state: MotionCase) -> tuple[Array, Array]:
         """Estimates at every place by signs, at the full belt's acceleration: highest tension and shortfall [N]."""
         loading, events, anchor = self.standard[0], self.events, self._anchor
         acceleration, forces = self._moved(state, loading)
-        total, more = self.resistance(state.friction)
-        step = events.more_certain + state.friction * (events.more_force - events.more_certain)
+        total, more = self.resistance(state.friction, state.hoppers)
+        step = self._steps(state.friction, state.hoppers)[1]
         added = events.by_section(step + acceleration * events.more_mass, self.count)
         taken = np.zeros_like(anchor)  # share of the drives that stand before a place
         if state.over is not None and not (state.name in _STARTS and is_start_uncontrolled(self.line)):
@@ -345,12 +378,12 @@ class SectionLoadings:
         base = base - anchor @ base
         least = np.zeros_like(base)
         least[self.stretch_at] = np.maximum(self.least, self.least + self.more_least)
-        least[self.stretch_at + 1] = np.maximum(least[self.stretch_at + 1], least[self.stretch_at])
+        least[self.stretch_end] = np.maximum(least[self.stretch_end], least[self.stretch_at])
         return base + raised, least - base + raised - whole
 
     def _sought(
         self,
-        state: _MotionCase,
+        state: MotionCase,
         at: int,
         sign: float,
         *,
@@ -359,8 +392,7 @@ class SectionLoadings:
     ) -> _TargetFigure:
         """Tension at a place over the take-up's, or its shortfall there with sign -1."""
         events, weights = self.events, sign * self._weights(at)
-        base = events.certain + state.friction * (events.force - events.certain)
-        more = events.more_certain + state.friction * (events.more_force - events.more_certain)
+        base, more = self._steps(state.friction, state.hoppers)
         constant = float(weights @ base)
         by_section = events.by_section(weights * more, self.count)
         if stretch is not None:
@@ -414,7 +446,7 @@ class SectionLoadings:
                 return here + np.where(loading, -more, more)
             return np.asarray(here + turn @ more)
 
-        resistance = changed(self.resistance(sought.state.friction))
+        resistance = changed(self.resistance(sought.state.friction, sought.state.hoppers))
         acceleration, forces = self._motion(sought.state, resistance, changed(self._masses))
         value = changed((sought.base, sought.more)) + sought.drives @ forces
         value += acceleration * changed((sought.mass, sought.more_mass))
@@ -434,9 +466,9 @@ def _as_column(values: Array, like: Array) -> Array:
     return values if like.ndim == 0 else values[:, None]
 
 
-def _limits_sag(state: _MotionCase) -> bool:
+def limits_sag(state: MotionCase) -> bool:
     """True at constant speed, where the sag is limited."""
-    return state.over == 1.0
+    return state.over == 1.0 and state.name != FILLED
 
 
 def _places_of_largest(values: Array) -> list[int]:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.loop.balance import Balance
+from conveyor.loop.reach_shares import reach_shares
 
 Array = NDArray[np.float64]
 
@@ -20,7 +22,9 @@ class LoopEvents:
 
     Forces, their certain parts [N] and masses [kg] with the section empty, and the addition of its bulk; `section` is
     -1 for none. `stretches` and `drives` are indices of every stretch, shape (2n,), and drive; `held` the place behind
-    the take-up, `spots` the place before every spot.
+    the take-up, `spots` the place before every spot. `ends` is the place behind every stretch and what acts on a part
+    of it, whose middle is `ahead` of the stretch's lengths before its end, shape (2n,). `hoppers` is what the bulk adds
+    more when they are filled and when they are empty [N], shape (2, e).
     """
 
     force: Array
@@ -29,8 +33,11 @@ class LoopEvents:
     more_force: Array
     more_certain: Array
     more_mass: Array
+    hoppers: Array
     section: NDArray[np.int_]
     stretches: NDArray[np.int_]
+    ends: NDArray[np.int_]
+    ahead: Array
     drives: NDArray[np.int_]
     held: int
     spots: tuple[int, ...]
@@ -49,7 +56,8 @@ def loop_events(full: Balance, empty: Balance) -> LoopEvents:
     """Events round the loop from the head, in running direction."""
     line, frame, count = full.line, full.frame, full.line.count
     rows: list[_EventRow] = []
-    stretches: list[int] = []
+    stretches, ends = list[int](), list[int]()
+    outlets = _outlet_events(full)
     drives = np.zeros(len(line.drives), dtype=int)
     held, spots = 0, list[int]()
     standing = iter(list(enumerate(frame.spots)))
@@ -74,15 +82,48 @@ def loop_events(full: Balance, empty: Balance) -> LoopEvents:
             else:
                 more = (laden[0] - bare[0], laden[1] - bare[1], laden[2] - bare[2])
                 rows.append((*bare, *more, boundary - count))
+            if boundary in outlets:
+                rows.append(outlets[boundary].row)
+            ends.append(len(rows))
     if frame.anchor is None:
         held = int(drives[frame.station[-1]]) + 1 if full.settled.take_up.behind else int(drives[frame.station[0]])
     columns = list(zip(*rows, strict=True))
     values = [np.array(column, dtype=float) for column in columns[:-1]]
     force, certain, mass, more_force, more_certain, more_mass = values
+    hoppers, ahead = _outlet_columns(outlets, ends, len(rows))
     return LoopEvents(
-        force, certain, mass, more_force, more_certain, more_mass,
-        section=np.array(columns[-1]), stretches=np.array(stretches), drives=drives, held=held, spots=tuple(spots),
+        force, certain, mass, more_force, more_certain, more_mass, hoppers,
+        section=np.array(columns[-1]), stretches=np.array(stretches), ends=np.array(ends),
+        ahead=ahead, drives=drives, held=held, spots=tuple(spots),
     )  # fmt: skip
+
+
+class _OutletEvent(NamedTuple):
+    """Pull of a hopper on a stretch in flow, what it changes filled and empty [N], where its middle is."""
+
+    row: _EventRow
+    changes: Array
+    ahead: float
+
+
+def _outlet_events(full: Balance) -> dict[int, _OutletEvent]:
+    """Pull of the hoppers on every stretch under one, by its number in loop order."""
+    line, pulls, found = full.line, full.frame.standing.pulls, dict[int, _OutletEvent]()
+    for point in line.loading:
+        if (hopper := point.loaded_hopper) is not None:
+            spread = reach_shares(line.loop, point.spot, hopper.length)
+            for k in np.flatnonzero(spread.shares).tolist():
+                row = (0.0, 0.0, 0.0, float(pulls[0, k]), 0.0, 0.0, point.comes_with)
+                found[k] = _OutletEvent(row, pulls[1:, k], float(spread.ahead[k]))
+    return found
+
+
+def _outlet_columns(outlets: Mapping[int, _OutletEvent], ends: Sequence[int], size: int) -> tuple[Array, Array]:
+    """Change of force at every event by hoppers filled and empty [N], shape (2, e), and `ahead`, shape (2n,)."""
+    hoppers, ahead = np.zeros((2, size)), np.full(len(ends), 0.5)
+    for k, outlet in outlets.items():
+        hoppers[:, ends[k] - 1], ahead[k] = outlet.changes, outlet.ahead
+    return hoppers, ahead
 
 
 def _stretch_events(balance: Balance) -> list[tuple[float, float, float] | None]:
@@ -105,7 +146,7 @@ def _point_events(full: Balance, empty: Balance, j: int) -> Iterator[_EventRow]:
         force for bend, force in zip(frame.bends, full.settled.bends, strict=True) if bend.pulley.spot == spot
     )
     for force in full.settled.points:
-        if force.spot != spot:
+        if force.spot != spot or force.reach > 0.0:
             continue
         if force.key == "secondary_by_length":
             yield from _length_coefficient_events(full, empty, force.total)

@@ -19,6 +19,7 @@ from conveyor.laws.resistance import secondary_resistance
 from conveyor.laws.tension import grip_tension
 from conveyor.line.line import Line
 from conveyor.line.loop_positions import LoopPosition
+from conveyor.loop.reach_shares import reach_shares
 from conveyor.loop.run_up import StartingForces
 
 Array = NDArray[np.float64]
@@ -85,8 +86,11 @@ class LoopConstants:
     ----------
     met : ndarray, shape (3, count)
         Forces at single places without and with friction [N], and masses of the runs [kg].
-    filling : ndarray, shape (count,)
-        What more the belt pulls at a start after its hoppers were filled, at the computed friction [N].
+    pulls : ndarray, shape (3, 2n)
+        Forces along the outlets of hoppers in loop order, at the computed friction [N]: in flow, and what they change
+        when the belt starts under filled hoppers and when the hoppers are empty.
+    early : ndarray, shape (3,)
+        What each adds to the mean tension of the loop, as it acts on the rear of its stretches, not evenly [N].
     mass : ndarray, shape (2n + 1,)
         Running sum of the moving masses [kg].
     least, centrifugal, lengths : ndarray, shape (2n,)
@@ -104,7 +108,8 @@ class LoopConstants:
     """
 
     met: Array
-    filling: Array
+    pulls: Array
+    early: Array
     mass: Array
     least: Array
     centrifugal: Array
@@ -295,18 +300,25 @@ def _loop_constants(frame: LoopLayout) -> LoopConstants:
     line, plan = frame.line, frame.plan
     shape, pulleys = line.loop, [bend.pulley for bend in frame.bends]
     met = np.zeros((3, plan.count))
+    pulls, early = np.zeros((3, 2 * line.count)), np.zeros(3)
     for force in frame.points:
-        if force.spot is not None:
+        if force.spot is not None and force.reach > 0.0:
+            spread = reach_shares(line.loop, force.spot, force.reach)
+            pulls += np.outer((force.total, 0.0, -force.total), spread.shares)
+            early += spread.early * np.array((force.total, 0.0, -force.total))
+        elif force.spot is not None:
             met[0 if force.certain else 1, plan.spots[frame.at[force.spot]]] += force.total
-    filling = np.zeros(plan.count)
     for point in line.loading:
-        if point.loaded_hopper is not None:
-            filling[plan.spots[frame.at[point.spot]]] += initial_pull(line, point)
+        if (hopper := point.loaded_hopper) is not None:
+            spread, more = reach_shares(line.loop, point.spot, hopper.length), initial_pull(line, point)
+            pulls[1] += more * spread.shares
+            early[1] += more * spread.early
     mass = np.concatenate([[0.0], np.cumsum(shape.mass)])
     met[2, plan.runs] = np.diff(mass[plan.boundaries])
     return LoopConstants(
         met=met,
-        filling=filling,
+        pulls=pulls,
+        early=early,
         mass=mass,
         least=shape.least,
         centrifugal=line.speed**2 * np.array([stretch.line_mass for stretch in shape.stretches]),

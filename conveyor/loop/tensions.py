@@ -70,6 +70,8 @@ class MotionState:
         Tension before every spot of the frame [N].
     largest, smallest : float
         Highest and lowest tension round the loop [N].
+    early : float
+        Mean tension over that of stretches on which the tension rises evenly [N], by forces on the rear of some.
     """
 
     name: str
@@ -85,10 +87,11 @@ class MotionState:
     spots: tuple[float, ...]
     largest: float
     smallest: float
+    early: float = 0.0
 
     def mean(self, lengths: Array) -> float:
         """Mean tension round the loop [N], of stretches of those lengths [m], shape (2n,)."""
-        return float((self.starts + self.ends) @ lengths) / (2.0 * float(lengths.sum()))
+        return float((self.starts + self.ends) @ lengths) / (2.0 * float(lengths.sum())) + self.early
 
     @property
     def slack(self) -> bool:
@@ -118,6 +121,7 @@ class LoopBatch:
         self.frames, self.plan, count = frames, frames[0].plan, frames[0].line.count
         self.standing = LoopConstants.side_by_side([frame.standing for frame in frames])
         forces = np.roll([_force_sums(each, count) for each in along], count, axis=-1)
+        forces[:, 1] += self.standing.pulls[:, 0]
         by_sag = np.roll([_flexure_by_sag(each, count) for each in along], count, axis=-1)
         self.given, self.flexure = by_sag[:, 0], by_sag[:, 1]
         """Flexure as given and at the largest sag, in loop order [N], shape (b, 2n); 0 where it is another law's."""
@@ -163,13 +167,30 @@ class LoopBatch:
     @cached_property
     def _means(self) -> Array:
         """Mean of each running sum over its value where its run begins, shape (b, 3, 1)."""
+        means = self._means_of(self.along)
+        means[:, 1] += self.standing.early[:, :1]
+        return means
+
+    def _means_of(self, along: Array) -> Array:
+        """Mean of running sums along the belt over their value where its run begins, shape (b, k, 1)."""
         lengths = self.standing.lengths[:, None]
-        mean = ((self.along[..., :-1] + self.along[..., 1:]) * lengths).sum(axis=-1) / (2.0 * lengths.sum(axis=-1))
-        begun = self.along[..., self.plan.boundaries[:-1]] * self._shares[:, None]
+        mean = ((along[..., :-1] + along[..., 1:]) * lengths).sum(axis=-1) / (2.0 * lengths.sum(axis=-1))
+        begun = along[..., self.plan.boundaries[:-1]] * self._shares[:, None]
         return np.asarray((mean - begun.sum(axis=-1))[..., None])
 
+    def along_in_state(self, friction: Array, acceleration: Array, hoppers: Array | None) -> Array:
+        """Running sums of forces along the belt in states of motion [N], shape (b, m, 2n + 1); as in `moving`."""
+        sums = _totals_in_state(self.along, friction, acceleration)
+        return sums if hoppers is None else sums + friction[..., None] * (hoppers @ self._pulls)
+
+    @cached_property
+    def _pulls(self) -> Array:
+        """Running sums of what hoppers change along the belt, filled and empty [N], shape (b, 2, 2n + 1)."""
+        changes = self.standing.pulls[:, 1:]
+        return np.concatenate([np.zeros((*changes.shape[:2], 1)), np.cumsum(changes, axis=-1)], axis=-1)
+
     def moving(
-        self, friction: Array, acceleration: Array, forces: Array, bends: Array, filled: Array | None = None
+        self, friction: Array, acceleration: Array, forces: Array, bends: Array, hoppers: Array | None = None
     ) -> MotionOffsets:
         """Tension offsets of states with given drive forces, which balance resistances and inertia.
 
@@ -181,13 +202,14 @@ class LoopBatch:
             Forces of the drives [N].
         bends : ndarray, shape (b, pulleys)
             Resistances of the pulleys [N].
-        filled : ndarray, shape (m,), optional
-            1 for states in which the belt breaks away under filled hoppers, else 0 [-].
+        hoppers : ndarray, shape (m, 2), optional
+            1 for states in which the belt breaks away under filled hoppers, and for those with empty ones, else 0 [-];
+            hoppers in flow without it.
         """
         plan = self.plan
         steps = _totals_in_state(self.met, friction, acceleration)
-        if filled is not None:
-            steps += (friction * filled)[..., None] * self.standing.filling[:, None]
+        if hoppers is not None:
+            steps[..., plan.runs] += friction[..., None] * (hoppers @ np.diff(self._pulls[..., plan.boundaries]))
         steps[..., plan.bends] = friction[..., None] * bends[:, None]
         steps[..., plan.drives] = -forces
         offsets = np.zeros((*friction.shape, plan.count + 1))
@@ -195,19 +217,19 @@ class LoopBatch:
         if plan.keeps_length:
             begun = offsets[..., plan.runs] * self._shares[:, None]
             anchor = _totals_in_state(self._means, friction, acceleration)[..., 0] + begun.sum(axis=-1)
+            if hoppers is not None:
+                changes = self._means_of(self._pulls)[..., 0] + self.standing.early[:, 1:]
+                anchor = anchor + friction * (changes @ hoppers.T)
         elif plan.held is not None:
             anchor = offsets[..., plan.held]
         else:
             before, behind = plan.station
             anchor = np.where(self.pulled[:, None], offsets[..., behind], offsets[..., before])
-        return MotionOffsets(self, friction, acceleration, forces, offsets, anchor)
+        return MotionOffsets(self, friction, acceleration, forces, offsets, anchor, hoppers)
 
-    def sagging(self, friction: Array) -> Array:
+    def sagging(self, friction: Array, hoppers: Array | None) -> Array:
         """Tension needed for the sag of each run at its start, at constant speed [N], shape (b, m, runs)."""
-        along, begins = (
-            _totals_in_state(self.along, friction, np.zeros_like(friction)),
-            self.plan.boundaries[:-1],
-        )
+        along, begins = self.along_in_state(friction, np.zeros_like(friction), hoppers), self.plan.boundaries[:-1]
         needed = self.standing.least[:, None] - np.minimum(along[..., :-1], along[..., 1:])
         return np.maximum.reduceat(needed, begins, axis=-1) + along[..., begins]
 
@@ -225,6 +247,7 @@ class MotionOffsets:
     forces: Array
     offsets: Array
     anchor: Array
+    hoppers: Array | None = None
 
     @cached_property
     def sides(self) -> Array:
@@ -241,7 +264,14 @@ class MotionOffsets:
     @cached_property
     def along(self) -> Array:
         """Offsets along the belt without point forces [N], shape (b, m, 2n + 1)."""
-        return _totals_in_state(self.loops.along, self.friction, self.acceleration)
+        return self.loops.along_in_state(self.friction, self.acceleration, self.hoppers)
+
+    @cached_property
+    def early(self) -> Array:
+        """Mean tension over that of stretches on which the tension rises evenly [N], shape (b, m)."""
+        early = self.loops.standing.early
+        changes = 0.0 if self.hoppers is None else early[:, 1:] @ self.hoppers.T
+        return np.asarray(self.friction * (early[:, :1] + changes))
 
     def flexure(self, setting: Array) -> Array:
         """Flexure in steady running with the take-ups at a setting, in loop order [N], shape (b, 2n)."""
@@ -305,6 +335,7 @@ class BatchTensions:
             spots=tuple(spots),
             largest=float(self.extremes[1][i, k]),
             smallest=float(self.extremes[0][i, k]),
+            early=float(moving.early[i, k]),
         )
 
 

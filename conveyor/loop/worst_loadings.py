@@ -25,8 +25,18 @@ from conveyor.laws.resistance.resistance_defaults import ROLL_DRAG_STANDSTILL_FA
 from conveyor.laws.tension import grip_tension
 from conveyor.line.set_limits import raised_height
 from conveyor.line.stretches import STRANDS
-from conveyor.loop.equilibrium import BRAKES, BRAKING, COASTING, DESIGN_START, LEAST, LEAST_BRAKING, START
-from conveyor.loop.load_superposition import Array, Loading, SectionLoadings
+from conveyor.loop.equilibrium import (
+    BRAKES,
+    BRAKING,
+    COASTING,
+    DESIGN_START,
+    FILLED,
+    LEAST,
+    LEAST_BRAKING,
+    RUN_OUT,
+    START,
+)
+from conveyor.loop.load_superposition import Array, Loading, MotionCase, SectionLoadings, limits_sag
 from conveyor.loop.run_up import is_start_uncontrolled, rated_force, start_force_ratio
 from conveyor.loop.tensions import STEADY
 
@@ -121,7 +131,7 @@ class CriterionLoadings(SectionLoadings):
         places = {at for d in self.drive_at.tolist() for at in (d, d + 1)}
         places |= {at for several in self._pulleys.values() for at in several}
         for k in (*self._stretches, self.count, 2 * self.count - 1):
-            places |= {int(self.stretch_at[k]), int(self.stretch_at[k]) + 1}
+            places |= {int(self.stretch_at[k]), int(self.stretch_end[k])}
         return places
 
     @cached_property
@@ -246,6 +256,7 @@ class CriterionLoadings(SectionLoadings):
         """Figures that depend on tensions, in every state of motion that occurs under each loading."""
         line, figures = self.line, CriterionFigures()
         resistances = {friction: self._sums(self.resistance(friction), flags) for friction in self._frictions}
+        fed = self._has_hoppers(flags)
         steady, least = resistances[1.0], resistances[line.least_friction]
         mass, brakes = self._sums(self._masses, flags), float(self.brakes.sum())
         occurs = {
@@ -254,22 +265,24 @@ class CriterionLoadings(SectionLoadings):
             LEAST_BRAKING: least < 0.0,
             BRAKES: least + brakes > 0.0,
             COASTING: steady > 0.0,
+            FILLED: fed,
+            RUN_OUT: fed,
         }
         means = dict[str, Array]()
         for state in (*self._states, replace(self._states[0], name=COASTING, over=None)):
             here = occurs.get(state.name, np.ones(len(flags), dtype=bool))
             if not here.any():
                 continue
-            acceleration, forces = self._motion(state, resistances[state.friction], mass)
-            tensions = self.setting + self._over_the_take_up(state.friction, flags, acceleration, forces)
-            ends = np.stack([tensions[:, self.stretch_at], tensions[:, self.stretch_at + 1]])
-            shares = line.loop.length / (2.0 * float(line.loop.way[-1]))
-            means[state.name] = ends.sum(axis=0) @ shares
+            resistance = self._sums(self.resistance(state.friction, state.hoppers), flags)
+            acceleration, forces = self._motion(state, resistance, mass)
+            tensions = self.setting + self._over_the_take_up(state, flags, acceleration, forces)
+            ends = np.stack([tensions[:, self.stretch_at], tensions[:, self.stretch_end]])
+            means[state.name] = tensions @ self._mean_weights
             found = dict(self._of_places(tensions, flags))
             found |= {"mean": means[state.name], "least mean": -means[state.name]}
             for drive, force in zip(line.drives, forces, strict=True):
                 found[f"force of {drive.name}"] = np.abs(force)
-            if state.over == 1.0:
+            if limits_sag(state):
                 found |= self._of_sag(ends.min(axis=0), flags)
             for name, everywhere in found.items():
                 values = _where_present(here, everywhere)
@@ -288,11 +301,10 @@ class CriterionLoadings(SectionLoadings):
                 figures["speed of the carriage"] = np.abs((means[START] - means[STEADY]) * acceleration)
         return figures
 
-    def _over_the_take_up(self, friction: float, flags: LoadingRows, acceleration: Array, forces: Array) -> Array:
+    def _over_the_take_up(self, state: MotionCase, flags: LoadingRows, acceleration: Array, forces: Array) -> Array:
         """Tension before and behind every event over the take-up's [N], shape (m, e + 1)."""
         events = self.events
-        step = events.certain + friction * (events.force - events.certain)
-        more = events.more_certain + friction * (events.more_force - events.more_certain)
+        step, more = self._steps(state.friction, state.hoppers)
         on = np.column_stack([flags, np.zeros(len(flags), dtype=bool)])[:, events.section]
         steps = step + on * more + acceleration[:, None] * (events.mass + on * events.more_mass)
         steps[:, self.drive_at] -= forces.T
@@ -308,7 +320,7 @@ class CriterionLoadings(SectionLoadings):
             yield f"pulley {i}", sides.sum(axis=-1)
             yield f"tight side of pulley {i}", sides.max(axis=-1)
         for k in self._stretches:
-            ends = tensions[:, [self.stretch_at[k], self.stretch_at[k] + 1]]
+            ends = tensions[:, [self.stretch_at[k], self.stretch_end[k]]]
             high, low = ends.max(axis=-1), ends.min(axis=-1)
             yield f"stretch {k}", high
             yield f"least of stretch {k}", -low
@@ -318,8 +330,8 @@ class CriterionLoadings(SectionLoadings):
                     yield f"least of stretch {k}, {words}", _where_present(on, -low)
         if self.line.transitions:
             transition_at = {
-                "tail": self.stretch_at[self.count], "head": self.stretch_at[-1] + 1,
-                "tail, return": self.stretch_at[self.count - 1] + 1, "head, return": self.stretch_at[0],
+                "tail": self.stretch_at[self.count], "head": self.stretch_end[-1],
+                "tail, return": self.stretch_end[self.count - 1], "head, return": self.stretch_at[0],
             }  # fmt: skip
             for end in (zone.name for zone in self.line.transitions):
                 there = tensions[:, transition_at[end]]

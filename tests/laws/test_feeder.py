@@ -13,6 +13,7 @@ from conveyor.laws.feeder import (
     hopper_load,
     hopper_skirt_resistance,
     initial_load_factor,
+    mass_flow_half_angle,
 )
 from conveyor.laws.resistance import skirt_resistance
 
@@ -124,3 +125,18 @@ def test_refusals():
         flow_load_factor(0.3, internal_friction=0.5, wall_friction=0.6)
     with pytest.raises(ConveyorError, match="no field of stress"):
         flow_load_factor(58.0 * DEG, internal_friction=40.0 * DEG, wall_friction=35.0 * DEG)
+
+
+@pytest.mark.parametrize(("inside", "wall"), [(30.0, 10.0), (40.0, 20.0), (50.0, 20.0), (60.0, 25.0), (60.0, 30.0)])
+def test_the_limit_of_mass_flow_is_that_of_another_fit(inside, wall):
+    """Jenike's chart as ter Borg (1986) fits it; the chart is read to a degree or two."""
+    steepest = 60.5 + math.degrees(math.atan((50.0 - inside) / 7.73)) / 15.07
+    other = steepest * (1.0 - wall / (42.3 + 0.131 * math.exp(0.06 * inside)))
+    found = mass_flow_half_angle(inside * DEG, wall_friction=wall * DEG) / DEG
+    assert found == pytest.approx(other, abs=2.0)
+
+
+def test_walls_too_rough_for_mass_flow_at_any_slope():
+    assert mass_flow_half_angle(70.0 * DEG, wall_friction=55.0 * DEG) == pytest.approx(0.0, abs=1e-12)
+    with pytest.raises(ConveyorError):
+        mass_flow_half_angle(50.0 * DEG, wall_friction=50.0 * DEG)

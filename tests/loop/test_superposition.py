@@ -7,6 +7,7 @@ import itertools
 import numpy as np
 import pytest
 
+from conveyor import load as load_spec
 from conveyor.loop.balance import with_take_up_at
 from conveyor.loop.load_superposition import (
     DRIVE_FORCE,
@@ -19,7 +20,7 @@ from conveyor.loop.load_superposition import (
 )
 from conveyor.loop.start_and_stop import start_and_stop
 from conveyor.loop.take_up_duty import at_common_setting
-from conveyor.models import LoadCase
+from conveyor.models import Conveyor, LoadCase
 from conveyor.models.variants import with_case
 from tests.loop.loop_lines import BOOSTER, DATA, TAIL_DRIVE, closed, line
 
@@ -110,6 +111,27 @@ def test_the_lift_over_a_tripper_goes_with_its_bulk(loading):
     conveyor = line(route={"further_feeding": [tripper], "pulleys": []}, calculation={"not_given": "nothing"})
     found = added(conveyor)
     alone = closed(bearing(conveyor, loading)).held(found.setting)
+    expected = looked_for(alone)
+    scale = CLOSED * alone.tensions.largest
+    assert found.figures(np.array(loading)) == pytest.approx(expected, rel=CLOSED, abs=scale)
+    assert looked_for(*found.loaded([np.array(loading)])) == pytest.approx(expected, rel=CLOSED, abs=scale)
+
+
+@pytest.mark.parametrize("kind", ["screw", "gravity"])
+@pytest.mark.parametrize("loading", [(False,) * 3, *itertools.product([True], [False, True], [False, True])])
+def test_the_pull_under_a_hopper_goes_with_its_bulk(kind, loading):
+    """Filled, in flow and run out: its outlet ends within the second of three sections."""
+    given = load_spec("examples/specs/feeder.yaml").as_data()
+    (section,) = given["route"].pop("sections")
+    sections = [
+        section | {"name": name, "length": length} for name, length in zip("abc", ("3 m", "2 m", "3 m"), strict=True)
+    ]
+    take_up = {"kind": kind, "position": "tail" if kind == "screw" else "head"}
+    route = given["route"] | {"sections": sections, "take_up": take_up, "pulleys": []}
+    conveyor = Conveyor.from_data(given | {"route": route, "calculation": {"not_given": "nothing"}})
+    found = added(conveyor)
+    alone = closed(bearing(conveyor, loading)).held(found.setting)
+    assert ("hopper filled" in alone.settled.states) == loading[0]
     expected = looked_for(alone)
     scale = CLOSED * alone.tensions.largest
     assert found.figures(np.array(loading)) == pytest.approx(expected, rel=CLOSED, abs=scale)

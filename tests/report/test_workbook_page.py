@@ -30,6 +30,8 @@ STATES = {
     "brakes on",
     "start",
     "drives off",
+    "hopper filled",
+    "run-out",
 }
 
 

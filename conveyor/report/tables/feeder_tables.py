@@ -11,6 +11,7 @@ from conveyor.laws.feeder import FEEDER_SPEED
 from conveyor.line.hopper_outlets import HopperOutlet
 from conveyor.line.transfer_parts import LoadingPoint
 from conveyor.loop.hopper_states import HopperState
+from conveyor.loop.pulley_duty import pulley_tensions
 from conveyor.report.table_model import Column, Table
 from conveyor.report.tables.transfer_tables import SHEET
 
@@ -48,8 +49,13 @@ def hopper_table(a: CalculatedConveyor) -> Table:
 
 
 def hopper_state_table(a: CalculatedConveyor) -> Table:
-    """Drive force, tensions, safety and start of a belt feeder in each state of its hoppers."""
+    """Drive force, torque, tensions, safety and start of a belt feeder in each state of its hoppers."""
     belt = a.line.belt
+
+    def torque(state: HopperState) -> float | None:
+        driven = [i for i, pulley in enumerate(a.line.pulleys) if pulley.driven]
+        sides = [(a.line.pulleys[i].diameter, *pulley_tensions(a.balance, i, state.motion)) for i in driven]
+        return max((0.5 * diameter * abs(before - behind) for diameter, before, behind in sides), default=None)
 
     def safety(state: HopperState) -> float | None:
         largest = state.motion.largest
@@ -60,7 +66,8 @@ def hopper_state_table(a: CalculatedConveyor) -> Table:
     columns = (
         Column("state", "text", "name"),
         Column("drive force", "force", "motion.force"),
-        Column("motor power", "power", lambda state: state.balance.frame.motor(state.motion.force)),
+        Column("torque at the drive shaft", "torque", torque),
+        Column("motor power", "power", lambda state: a.balance.frame.motor(state.motion.force)),
         Column("largest tension", "force", "motion.largest"),
         Column("slack side", "force", lambda state: min(side.slack for side in state.motion.drives)),
         Column("safety of the belt", "safety", safety),
