@@ -22,7 +22,7 @@ from conveyor.forms.form_fields import FieldGroup, FormField, Part, model_layout
 from conveyor.models import Belt, Drive, Pulley, Roll, RubberCompound
 from conveyor.models.base import Model
 from conveyor.models.library_items import merge_fields
-from conveyor.models.maker_lists import FOLDER, MAKER_KINDS, SUFFIX, MakerKind, MakerList, maker_items
+from conveyor.models.maker_lists import FOLDER, MAKER_KINDS, SUFFIX, ListedItem, MakerKind, MakerList, maker_items
 from conveyor.rubber import PronySeries
 
 LIMITS: Final = ArchiveLimits(content=50_000_000, parts=2_000, elements=1_000_000, expected="maker's list")
@@ -346,13 +346,13 @@ def kept_list(path: str | Path, folder: Path) -> tuple[Path, bytes]:
         for item, file in maker_items(folder.parent, folder)
         if file.resolve() != target.resolve()
     }
-    clashes = [
-        f'{where}: {item.one} "{item.name}" is in {others[item.kind, item.name.casefold()]}, too; rename one'
-        for item in read.items
-        if (item.kind, item.name.casefold()) in others
-    ]
+    clashes: dict[Path, list[ListedItem]] = {}
+    for item in read.items:
+        if (item.kind, item.name.casefold()) in others:
+            clashes.setdefault(others[item.kind, item.name.casefold()], []).append(item)
     if clashes:
-        raise InputError(error_lines(clashes, str, str(where)))
+        told = [_clash_message(where, items, file) for file, items in clashes.items()]
+        raise InputError(error_lines(told, str, str(where)))
     data = {kind: getattr(read, kind) for kind in MAKER_KINDS if getattr(read, kind)}
     plain = {
         kind: {name: {k: v for k, v in entry.as_data().items() if v != ""} for name, entry in items.items()}
@@ -360,3 +360,13 @@ def kept_list(path: str | Path, folder: Path) -> tuple[Path, bytes]:
     }
     heading = f"# {where.name}, read by conveyor library add; specs name an item with `listed`.\n"
     return target, (heading + yaml_text(plain, width=110)).encode()
+
+
+def _clash_message(where: Path, items: list[ListedItem], file: Path) -> str:
+    """Refusal of the items that another list has, too: one line a list."""
+    first = f'{items[0].one} "{items[0].name}"'
+    what = f"{first} is" if len(items) == 1 else f"{len(items)} items, {first} the first, are"
+    return (
+        f"{where}: {what} in {file}, too; rename one of each, or where that is an older edition remove it: "
+        f"conveyor library remove {file.stem}"
+    )

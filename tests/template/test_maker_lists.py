@@ -132,6 +132,16 @@ def test_added_again_it_replaces_its_items(tmp_path):
         add_maker_list(filled(tmp_path, heavier, "other.xlsx"), folder)
 
 
+def test_a_new_edition_under_another_name_is_one_line(tmp_path):
+    folder = tmp_path / "conveyor-library"
+    add_maker_list(filled(tmp_path, ITEMS), folder)
+    with pytest.raises(InputError) as refused:
+        add_maker_list(filled(tmp_path, ITEMS, "edition 2.xlsx"), folder)
+    (line,) = str(refused.value).splitlines()
+    assert f'{len(ITEMS)} items, roll "R-159-465" the first, are in {folder / "list.yaml"}, too' in line
+    assert line.endswith("conveyor library remove list")
+
+
 @pytest.mark.parametrize(
     ("sheet", "changes", "says"),
     [
@@ -212,3 +222,19 @@ def test_the_commands(tmp_path, monkeypatch):
     personal = run("library", "add", "list.xlsx", "--personal", cwd=tmp_path)
     assert personal.returncode == 2
     assert "too; rename one" in personal.stderr
+    shown = run("library", "show", "list", "m315", cwd=tmp_path).stdout
+    assert "motor M315" in shown
+    assert [row.split(None, 1) for row in shown.splitlines()[1:]] == [
+        ["installed_power", "315 kW"], ["motor_speed", "1488 rpm"], ["inertia", "5.2 kg*m^2"], ["efficiency", "96 %"],
+        ["source", "list of Z, p. 9"],
+    ]  # fmt: skip
+    every = json.loads(run("library", "show", "list", "--json", cwd=tmp_path).stdout)
+    assert [item["name"] for item in every] == [values["name"] for _, values in ITEMS]
+    assert 'no item "M351"; did you mean "M315"?' in run("library", "show", "list", "M351", cwd=tmp_path).stderr
+    kept = tmp_path / "conveyor-library" / "list.yaml"
+    asked = run("library", "remove", "list", cwd=tmp_path)
+    assert (asked.returncode, kept.exists()) == (2, True)
+    assert "say --yes" in asked.stderr
+    assert "removed" in run("library", "remove", "list", "--yes", cwd=tmp_path).stdout
+    assert not kept.exists()
+    assert 'no list "list" is kept; there are: none' in run("library", "remove", "list", "--yes", cwd=tmp_path).stderr
