@@ -44,6 +44,8 @@ class ListForm:
         Unit of each field, "" of one that has none.
     needed : tuple of str
         Fields that every item has.
+    either : tuple of str
+        Fields of which every item has one at least.
     sample : mapping
         What a spec gives beside the item, to check it by the model; fields that it has not are not checked.
     """
@@ -52,6 +54,7 @@ class ListForm:
     columns: Mapping[str, str]
     needed: tuple[str, ...]
     sample: Mapping[str, Any]
+    either: tuple[str, ...] = ()
 
     def leaf(self, path: str) -> FormField:
         """Field of a column."""
@@ -65,8 +68,8 @@ class ListForm:
 
 _SERIES: Final = PronySeries(1e6, np.array([1e7]), np.array([1e-3]))
 _COMPOUND: Final = RubberCompound.from_series(_SERIES, name="any", reference_temperature=293.15)
-_DRIVE: Final = {"wrap_angle": "180 deg", "friction": 0.3, "efficiency": "100 %", "installed_power": "1 kW",
-                 "brake_force": "1 kN"}  # fmt: skip
+_DRIVE: Final = {"wrap_angle": "180 deg", "friction": 0.3, "efficiency": "100 %", "installed_power": "1 kW"}
+_GEARED: Final = {**_DRIVE, "motor_speed": "1500 rpm"}
 LIST_FORMS: Final[Mapping[MakerKind, ListForm]] = {
     "rolls": ListForm(
         Roll,
@@ -112,8 +115,9 @@ LIST_FORMS: Final[Mapping[MakerKind, ListForm]] = {
                           ("gear_ratio", "efficiency"), {**_DRIVE, "inertia": "1 kg*m^2"}),
     "couplings": ListForm(Drive, {"efficiency": "%", "torque_factor": "", "coupling_torque": "N*m"}, ("efficiency",),
                           {**_DRIVE, "motor_speed": "1500 rpm"}),
-    "backstops": ListForm(Drive, {"backstop_torque": "kN*m"}, ("backstop_torque",), _DRIVE),
-    "brakes": ListForm(Drive, {"brake_force": "kN", "brake_heat": "MJ", "brake_disc": "kg"}, ("brake_force",), _DRIVE),
+    "backstops": ListForm(Drive, {"backstop_torque": "kN*m", "backstop_shaft": ""}, ("backstop_torque",), _GEARED),
+    "brakes": ListForm(Drive, {"brake_force": "kN", "brake_torque": "kN*m", "brake_shaft": "", "brake_heat": "MJ",
+                               "brake_disc": "kg"}, (), _GEARED, ("brake_force", "brake_torque")),
 }  # fmt: skip
 """Sheets of the form by kind: what checks and figures use of an item."""
 
@@ -248,7 +252,10 @@ class _SheetReader:
         for path in ("name", "source", *self._form.needed):
             if path not in given:
                 self._refuse(row, self._number(path), path, "is empty; every item has it: fill it in")
-        if all(path in given for path in self._form.needed):
+        either = self._form.either
+        if either and not any(path in given for path in either):
+            self._refuse(row, self._number(either[0]), either[0], f"is empty; every item has it or {either[1]}")
+        elif all(path in given for path in self._form.needed):
             self._check(row, entry["fields"], given)
         return entry
 

@@ -90,7 +90,7 @@ class TroughAtSpeed(NamedTuple):
     roll: RollSize
 
 
-def _running(task: SizingTask) -> Iterator[TroughAtSpeed]:
+def _running_troughs(task: SizingTask) -> Iterator[TroughAtSpeed]:
     """Every trough at every speed on every rolls that keep the rules."""
     for trough in task.troughs:
         rolling = [(roll, on) for roll in task.rolls if (on := task.trough_on(roll, trough)) is not None]
@@ -121,7 +121,7 @@ class Candidates:
     @classmethod
     def of(cls, task: SizingTask) -> Candidates:
         """Combine the free choices of a duty."""
-        running = tuple(_running(task))
+        running = tuple(_running_troughs(task))
         carry, back = task.spacings
         series = (running, carry, back, task.bottom_covers, task.kinds, task.rules.drives)
         numbers = np.indices([len(one) for one in series]).reshape(len(series), -1).T

@@ -170,7 +170,9 @@ def _choice_axes(task: SizingTask, base: DesignChoice, bottom: float) -> Iterato
         base.back,
         [(a, replace(base, back=a)) for a in back if a >= base.carry],
     )
-    same = next(one for one in task.troughs if _alike(one, base.trough) and one.width.belt == base.trough.width.belt)
+    same = next(
+        one for one in task.troughs if _same_angle(one, base.trough) and one.width.belt == base.trough.width.belt
+    )
     rolls = _choices_on(task, base, same, base.speed)
     yield "roll diameter", "size", base.roll.diameter, [(one.roll.diameter, one) for one in rolls]
     yield (
@@ -186,14 +188,16 @@ def _choice_axes(task: SizingTask, base: DesignChoice, bottom: float) -> Iterato
 
 def _choice_at_speed(task: SizingTask, base: DesignChoice, speed: float) -> DesignChoice | None:
     """Choice at another speed, with the narrowest belt within the rules and the smallest rolls."""
-    for trough in sorted((one for one in task.troughs if _alike(one, base.trough)), key=lambda one: one.width.belt):
+    for trough in sorted(
+        (one for one in task.troughs if _same_angle(one, base.trough)), key=lambda one: one.width.belt
+    ):
         if task.filling(trough, speed) is not None:
             fits = _choices_on(task, base, trough, speed)
             return next((one for one in fits if one.roll.diameter >= base.roll.diameter), None)
     return None
 
 
-def _alike(trough: TroughSize, other: TroughSize) -> bool:
+def _same_angle(trough: TroughSize, other: TroughSize) -> bool:
     """True if two troughs have the same angle."""
     return trough.angle == other.angle
 

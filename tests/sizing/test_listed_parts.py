@@ -61,10 +61,14 @@ backstops:
   B1: {source: "list G", fields: {backstop_torque: 1 kN*m}}
   B11: {source: "list G", fields: {backstop_torque: 11 kN*m}}
   B18: {source: "list G", fields: {backstop_torque: 18 kN*m}}
+  HS600: {source: "list G", fields: {backstop_torque: 600 N*m, backstop_shaft: motor}}
+  HS690: {source: "list G", fields: {backstop_torque: 690 N*m, backstop_shaft: motor}}
 brakes:
   BR1: {source: "list H", fields: {brake_force: 1 kN}}
   BR40: {source: "list H", fields: {brake_force: 40 kN, brake_heat: 1 kJ}}
   BR60: {source: "list H", fields: {brake_force: 60 kN, brake_heat: 5 MJ}}
+  ED700: {source: "list H", fields: {brake_torque: 700 N*m, brake_shaft: motor}}
+  ED1200: {source: "list H", fields: {brake_torque: 1200 N*m, brake_shaft: motor}}
 """
 DUTY = """\
 name: Listed
@@ -219,6 +223,8 @@ def test_a_belt_listed_by_its_rating_breaks_at_ten_times_it():
         ("{gearboxes: [G20-16]}", r"listed\.gearboxes: given without listed\.motors, whose speed"),
         ("{gearboxes: [old]}", r'listed\.gearboxes\[0\]: "old" has no gear_torque, which sizing needs'),
         ("{couplings: [C1000]}", r"listed\.couplings: given without listed\.motors"),
+        ("{brakes: [ED700]}", r"listed\.brakes: given without listed\.motors, whose speed brakes are chosen by"),
+        ("{motors: [M132], backstops: [HS600]}", r'listed\.motors\[0\]: "M132" has no motor_speed'),
         ("{motors: [M132], gearboxes: [G20-16]}", r'listed\.motors\[0\]: "M132" has no motor_speed'),
         ("{motors: [plain], gearboxes: [G20-16]}", r'listed\.motors\[0\]: "plain" has no inertia'),
         ("{pulleys: [narrow, bare]}", r'listed\.pulleys\[1\]: "bare" has no face_width'),

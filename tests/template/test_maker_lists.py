@@ -13,6 +13,7 @@ import conveyor
 from conveyor.errors import InputError
 from conveyor.files.libraries import flatten_fields
 from conveyor.forms.maker_list_reader import LIST_FORMS, add_maker_list, read_maker_list
+from conveyor.line.line import Line
 from conveyor.models.maker_lists import MAKER_KINDS
 from conveyor.pipeline import calculate
 from conveyor.report.tables.document_tables import identity_table
@@ -33,6 +34,7 @@ ITEMS: list[tuple[str, dict[str, Any]]] = [
                 "inertia": 5.2, "efficiency": 96}),
     ("Gearboxes", {"name": "G20", "source": "list of Z, p. 19", "gear_ratio": 20.1, "efficiency": 97}),
     ("Backstops", {"name": "BS40", "source": "list of Z, p. 30", "backstop_torque": 40}),
+    ("Brakes", {"name": "ED 630", "source": "list of B, p. 2", "brake_torque": 1.2, "brake_shaft": "motor"}),
 ]  # fmt: skip
 
 
@@ -121,6 +123,21 @@ def test_what_the_spec_gives_goes_before_the_list(tmp_path):
     assert si(line.drive.efficiency) == pytest.approx(0.9)
 
 
+@pytest.mark.parametrize(
+    ("own", "force"),
+    [
+        ({}, 1200.0 * 20.1 / 0.5),  # 1.2 kN m at the motor's shaft, ratio 20.1, pulley of 1 m
+        ({"brake_force": "30 kN"}, 30e3),
+        ({"brake_torque": "60 kN*m"}, 60e3 / 0.5),  # at the pulley: the shaft of the list is not that of the spec's
+    ],
+)
+def test_a_brake_at_the_motors_shaft_acts_by_the_ratio(tmp_path, own, force):
+    add_maker_list(filled(tmp_path, ITEMS), tmp_path / "conveyor-library")
+    parts = ["M315", "G20", "BS40", "ED 630"]
+    line = Line.of(conveyor.load(spec_of(tmp_path, listed=parts, pulley_diameter="1 m", **own)))
+    assert line.drives[0].brake == pytest.approx(force)
+
+
 def test_added_again_it_replaces_its_items(tmp_path):
     folder = tmp_path / "conveyor-library"
     add_maker_list(filled(tmp_path, ITEMS), folder)
@@ -158,6 +175,9 @@ def test_a_new_edition_under_another_name_is_one_line(tmp_path):
         ("Belts", {"carcass.plies": "four"}, 'Belts!D2 carcass.plies: expected a whole number, got "four"'),
         ("Belts", {"carcass.kind": "steel cord"}, "Belts!D2 carcass.plies: got 4, but cords of steel (kind) are no"),
         ("Motors", {"efficiency": 105}, "Motors!F2 efficiency: got 105 %"),
+        ("Brakes", {"brake_torque": None}, "Brakes!C2 brake_force: is empty; every item has it or brake_torque"),
+        ("Brakes", {"brake_force": 10}, "Brakes!D2 brake_torque: got 1.2 kN*m beside brake_force 10 kN; give one of"),
+        ("Brakes", {"brake_torque": None, "brake_force": 10}, "brake_torque: missing: brake_shaft is given"),
     ],
 )
 def test_a_wrong_cell_is_refused_by_its_place(tmp_path, sheet, changes, says):
