@@ -264,10 +264,11 @@ class _SheetReader:
         said = {
             "date": f"got {cell.value}, a date; write a number or text",
             "error": f"got {cell.value}, the error of a formula; write the value",
-            "no result": "a formula; write its value, a list is read without calculating",
+            "no result": "a formula without a stored value; let a spreadsheet program calculate and save it, or copy "
+            "the cells and paste them as values",
         }
-        if cell.kind != "value" or cell.formula:
-            self._refuse(row, column.number, column.path, said["no result" if cell.kind == "value" else cell.kind])
+        if cell.kind != "value":
+            self._refuse(row, column.number, column.path, said[cell.kind])
             return None
         if column.path in {"name", "source", "note"}:
             return str(cell.value).strip()

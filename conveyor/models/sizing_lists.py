@@ -65,7 +65,10 @@ class ListedSeries(Model):
                 if item.kind != kind:
                     problems.append(Problem((kind, i), f'got "{item.name}", which is of {item.kind}'))
                 elif missing:
-                    told = f'"{item.name}" has no {missing}, which sizing needs; add it to the list'
+                    told = (
+                        f'"{item.name}" has no {missing}, which sizing needs; add it to the list, or name the items to '
+                        f"use instead of {ALL}"
+                    )
                     problems.append(Problem((kind, i), told))
             if self._turned(kind) and not self.items("motors"):
                 told = f"given without listed.motors, whose speed {kind} are chosen by; list motors, or remove {kind}"

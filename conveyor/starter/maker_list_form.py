@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Final
 
@@ -29,6 +29,18 @@ _TEXTS: Final = {
     "source": "Maker, list, edition and page.",
     "note": "What else is to be said, such as part number, article; no figure uses it.",
 }
+
+_MEANINGS: Final[Mapping[tuple[MakerKind, str], str]] = {
+    ("motors", "installed_power"): "Rated power of one motor.",
+    ("motors", "inertia"): "Of one motor, at its shaft.",
+    ("motors", "efficiency"): "Of the motor: power at its shaft over that from the mains.",
+    ("gearboxes", "gear_ratio"): "Speed of its fast shaft over that of the slow one.",
+    ("gearboxes", "efficiency"): "Of the gearbox alone, from its fast to its slow shaft.",
+    ("gearboxes", "gear_torque"): "Rated torque at its slow shaft.",
+    ("couplings", "efficiency"): "Of the coupling alone, its slip included.",
+    ("couplings", "coupling_torque"): "Rated torque.",
+}
+"""What a column of an item means where the field of the spec says it of the whole drive."""
 
 
 @check_arguments
@@ -113,5 +125,5 @@ def _list_columns(kind: MakerKind) -> Iterator[tuple[str, str, str, str, str]]:
         leaf: FormField = form.leaf(path)
         other = " or ".join(each for each in form.either if each != path) if path in form.either else ""
         needed = "yes" if path in form.needed else f"or {other}" if other else ""
-        yield path, unit, needed, leaf.doc, allowed_text(leaf)
+        yield path, unit, needed, _MEANINGS.get((kind, path), leaf.doc), allowed_text(leaf)
     yield "note", "", "", _TEXTS["note"], ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from conveyor.spec import dump
 from conveyor.starter.maker_list_form import write_maker_list_form
 from conveyor.units import si
 from tests.command_line import run
+from tests.template.test_hostile import edit
 
 SPECS = Path(__file__).parents[2] / "examples" / "specs"
 ITEMS: list[tuple[str, dict[str, Any]]] = [
@@ -165,7 +167,13 @@ def test_a_new_edition_under_another_name_is_one_line(tmp_path):
         ("Rolls", {"diameter": None}, "Rolls!C2 diameter: is empty; every item has it: fill it in"),
         ("Rolls", {"diameter": "thick"}, 'Rolls!C2 diameter: expected a length such as "120 mm", got "thick mm"'),
         ("Rolls", {"diameter": -159}, "Rolls!C2 diameter: got -159 mm"),
-        ("Rolls", {"diameter": "=1+1"}, "Rolls!C2 diameter: a formula"),
+        ("Rolls", {"diameter": "=1+1"}, "Rolls!C2 diameter: a formula without a stored value"),
+        ("Rolls", {"diameter": "6 in"}, 'got "6 in" beside the unit "mm" of its cell or heading; give the'),
+        (
+            "Pulleys",
+            {"shaft_steel": "42CrMo4"},
+            'Pulleys!J2 shaft_steel: got "42CrMo4": of the steels of CEMA B105.1, whose strengths are used, C4140 is',
+        ),
         ("Rolls", {"source": None}, "Rolls!B2 source: is empty; every item has it: fill it in"),
         ("Rolls", {"name": "159x465"}, 'Rolls!A2 name: got "159x465", which the package\'s own library has'),
         ("Rolls", {"bearing.distance": None}, "bearing.distance: missing"),
@@ -216,6 +224,29 @@ def test_units_of_the_heading_are_those_of_the_column(tmp_path):
     book.save(path)
     (item,) = read_maker_list(path).items
     assert item.fields["diameter"] == "6.25 in"
+
+
+def test_of_a_formula_the_stored_value_is_read(tmp_path):
+    path = filled(tmp_path, [("Rolls", ITEMS[0][1] | {"diameter": "=150+9"})])
+    names = load_workbook(path).sheetnames
+    part = f"xl/worksheets/sheet{names.index('Rolls') + 1}.xml"
+    edit(path, part, lambda xml: re.sub(rb"<f>150\+9</f><v ?/>", b"<f>150+9</f><v>159</v>", xml))
+    (item,) = read_maker_list(path).items
+    assert item.fields["diameter"] == "159 mm"
+
+
+def test_the_form_explains_parts_of_a_drive_by_themselves(tmp_path):
+    rows = load_workbook(write_maker_list_form(tmp_path / "form.xlsx"))["Columns"].iter_rows(values_only=True)
+    said = {(row[0], row[1]): row[3:5] for row in rows}
+    assert said["Gearboxes", "efficiency"] == ("yes", "Of the gearbox alone, from its fast to its slow shaft.")
+    assert said["Brakes", "brake_torque"][0] == "or brake_force"
+
+
+def test_set_takes_a_list_as_in_yaml(tmp_path):
+    add_maker_list(filled(tmp_path, ITEMS), tmp_path / "conveyor-library")
+    done = run("power", spec_of(tmp_path), "--set", "drive.listed=[M 315, G20]", cwd=tmp_path)
+    assert '"M 315" is not in the library of' in done.stderr
+    assert 'did you mean "M315"' in done.stderr
 
 
 def test_an_unknown_name_says_what_there_is(tmp_path):
