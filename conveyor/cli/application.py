@@ -133,7 +133,8 @@ Shelves = Annotated[
 FieldChanges = Annotated[
     list[str] | None,
     option(
-        'Change a field of the spec, as in --set "belt.speed=5.5 m/s"; may be repeated.',
+        'Change a field of the spec, as in --set "belt.speed=5.5 m/s" or --set "drive.listed=[M315, G20]"; may be '
+        "repeated.",
         "FIELD=VALUE",
         "--set",
     ),
@@ -212,11 +213,18 @@ def read_spec(path: Path, shelves: list[Path] | None, changed: list[str] | None 
 
 
 def _parse_value(written: str) -> Any:
-    """JSON number, true, false or list; else text."""
+    """JSON number, true, false or list, or a list as in YAML; else text."""
     try:
         return json.loads(written)
     except ValueError:
-        return written
+        if not written.startswith("["):
+            return written
+    from conveyor.files.document import parse_document
+
+    try:
+        return parse_document(f"value: {written}", Path("set.yaml")).data["value"]
+    except InputError:
+        return written  # refused at its field
 
 
 class StudyStop(Exception):  # noqa: N818 no fault of anybody

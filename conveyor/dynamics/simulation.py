@@ -111,7 +111,7 @@ def standard_scenarios(conveyor: Conveyor) -> tuple[Scenario, ...]:
     led = all(pulley.starter is None or pulley.starter.kind == "inverter" for pulley in line.pulleys)
     direct = line.start_factor is None and (line.torque_curve or line.torque_factor is not None)
     led = led and not (direct and line.starter is None)
-    braked = any(pulley.brake_force is not None for pulley in line.pulleys)
+    braked = any(pulley.braked for pulley in line.pulleys)
     brake = [{"at": line.brake_delay, "do": "brake"}] if braked else []
     made = [
         ("start full", "at rest", "full", [{"do": "start"}]),

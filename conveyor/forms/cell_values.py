@@ -134,7 +134,7 @@ def _read_quantity(leaf: FormField, value: CellValue, unit: str | None) -> Any:
         return f"{text} {unit}" if unit else text
     if unit and match[2].strip() != unit:
         raise InputError(
-            f'got "{text}" beside the unit "{unit}"; give the number alone in the value cell, its unit in the unit cell'
+            f'got "{text}" beside the unit "{unit}" of its cell or heading; give the number alone, in that unit'
         )
     return text
 

@@ -22,7 +22,7 @@ from conveyor.forms.form_fields import FieldGroup, FormField, Part, model_layout
 from conveyor.models import Belt, Drive, Pulley, Roll, RubberCompound
 from conveyor.models.base import Model
 from conveyor.models.library_items import merge_fields
-from conveyor.models.maker_lists import FOLDER, MAKER_KINDS, SUFFIX, MakerKind, MakerList, maker_items
+from conveyor.models.maker_lists import FOLDER, MAKER_KINDS, SUFFIX, ListedItem, MakerKind, MakerList, maker_items
 from conveyor.rubber import PronySeries
 
 LIMITS: Final = ArchiveLimits(content=50_000_000, parts=2_000, elements=1_000_000, expected="maker's list")
@@ -44,6 +44,8 @@ class ListForm:
         Unit of each field, "" of one that has none.
     needed : tuple of str
         Fields that every item has.
+    either : tuple of str
+        Fields of which every item has one at least.
     sample : mapping
         What a spec gives beside the item, to check it by the model; fields that it has not are not checked.
     """
@@ -52,6 +54,7 @@ class ListForm:
     columns: Mapping[str, str]
     needed: tuple[str, ...]
     sample: Mapping[str, Any]
+    either: tuple[str, ...] = ()
 
     def leaf(self, path: str) -> FormField:
         """Field of a column."""
@@ -65,8 +68,8 @@ class ListForm:
 
 _SERIES: Final = PronySeries(1e6, np.array([1e7]), np.array([1e-3]))
 _COMPOUND: Final = RubberCompound.from_series(_SERIES, name="any", reference_temperature=293.15)
-_DRIVE: Final = {"wrap_angle": "180 deg", "friction": 0.3, "efficiency": "100 %", "installed_power": "1 kW",
-                 "brake_force": "1 kN"}  # fmt: skip
+_DRIVE: Final = {"wrap_angle": "180 deg", "friction": 0.3, "efficiency": "100 %", "installed_power": "1 kW"}
+_GEARED: Final = {**_DRIVE, "motor_speed": "1500 rpm"}
 LIST_FORMS: Final[Mapping[MakerKind, ListForm]] = {
     "rolls": ListForm(
         Roll,
@@ -112,8 +115,9 @@ LIST_FORMS: Final[Mapping[MakerKind, ListForm]] = {
                           ("gear_ratio", "efficiency"), {**_DRIVE, "inertia": "1 kg*m^2"}),
     "couplings": ListForm(Drive, {"efficiency": "%", "torque_factor": "", "coupling_torque": "N*m"}, ("efficiency",),
                           {**_DRIVE, "motor_speed": "1500 rpm"}),
-    "backstops": ListForm(Drive, {"backstop_torque": "kN*m"}, ("backstop_torque",), _DRIVE),
-    "brakes": ListForm(Drive, {"brake_force": "kN", "brake_heat": "MJ", "brake_disc": "kg"}, ("brake_force",), _DRIVE),
+    "backstops": ListForm(Drive, {"backstop_torque": "kN*m", "backstop_shaft": ""}, ("backstop_torque",), _GEARED),
+    "brakes": ListForm(Drive, {"brake_force": "kN", "brake_torque": "kN*m", "brake_shaft": "", "brake_heat": "MJ",
+                               "brake_disc": "kg"}, (), _GEARED, ("brake_force", "brake_torque")),
 }  # fmt: skip
 """Sheets of the form by kind: what checks and figures use of an item."""
 
@@ -248,7 +252,10 @@ class _SheetReader:
         for path in ("name", "source", *self._form.needed):
             if path not in given:
                 self._refuse(row, self._number(path), path, "is empty; every item has it: fill it in")
-        if all(path in given for path in self._form.needed):
+        either = self._form.either
+        if either and not any(path in given for path in either):
+            self._refuse(row, self._number(either[0]), either[0], f"is empty; every item has it or {either[1]}")
+        elif all(path in given for path in self._form.needed):
             self._check(row, entry["fields"], given)
         return entry
 
@@ -257,10 +264,11 @@ class _SheetReader:
         said = {
             "date": f"got {cell.value}, a date; write a number or text",
             "error": f"got {cell.value}, the error of a formula; write the value",
-            "no result": "a formula; write its value, a list is read without calculating",
+            "no result": "a formula without a stored value; let a spreadsheet program calculate and save it, or copy "
+            "the cells and paste them as values",
         }
-        if cell.kind != "value" or cell.formula:
-            self._refuse(row, column.number, column.path, said["no result" if cell.kind == "value" else cell.kind])
+        if cell.kind != "value":
+            self._refuse(row, column.number, column.path, said[cell.kind])
             return None
         if column.path in {"name", "source", "note"}:
             return str(cell.value).strip()
@@ -346,13 +354,13 @@ def kept_list(path: str | Path, folder: Path) -> tuple[Path, bytes]:
         for item, file in maker_items(folder.parent, folder)
         if file.resolve() != target.resolve()
     }
-    clashes = [
-        f'{where}: {item.one} "{item.name}" is in {others[item.kind, item.name.casefold()]}, too; rename one'
-        for item in read.items
-        if (item.kind, item.name.casefold()) in others
-    ]
+    clashes: dict[Path, list[ListedItem]] = {}
+    for item in read.items:
+        if (item.kind, item.name.casefold()) in others:
+            clashes.setdefault(others[item.kind, item.name.casefold()], []).append(item)
     if clashes:
-        raise InputError(error_lines(clashes, str, str(where)))
+        told = [_clash_message(where, items, file) for file, items in clashes.items()]
+        raise InputError(error_lines(told, str, str(where)))
     data = {kind: getattr(read, kind) for kind in MAKER_KINDS if getattr(read, kind)}
     plain = {
         kind: {name: {k: v for k, v in entry.as_data().items() if v != ""} for name, entry in items.items()}
@@ -360,3 +368,13 @@ def kept_list(path: str | Path, folder: Path) -> tuple[Path, bytes]:
     }
     heading = f"# {where.name}, read by conveyor library add; specs name an item with `listed`.\n"
     return target, (heading + yaml_text(plain, width=110)).encode()
+
+
+def _clash_message(where: Path, items: list[ListedItem], file: Path) -> str:
+    """Refusal of the items that another list has, too: one line a list."""
+    first = f'{items[0].one} "{items[0].name}"'
+    what = f"{first} is" if len(items) == 1 else f"{len(items)} items, {first} the first, are"
+    return (
+        f"{where}: {what} in {file}, too; rename one of each, or where that is an older edition remove it: "
+        f"conveyor library remove {file.stem}"
+    )

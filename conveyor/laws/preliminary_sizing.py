@@ -47,6 +47,9 @@ NORMAL_SPACINGS: Final = (
 )
 LOADING_SPACING_SHARE: Final = 0.5  # [-], sets at a loading point over the others; CEMA, general knowledge
 SKIRTBOARD_TIME: Final = 0.6 / 0.5  # [s] from where bulk lands; Martin Engineering, little air: 0.6 m for each 0.5 m/s
+ROLL_ROOM_SHARE: Final = (
+    0.5  # [-], of the rolls beyond the belt's edges, how much may be missing or more; general knowledge
+)
 EDGE_SHARE: Final = 0.055  # [-], CEMA: standard edge distance 0.055 B + 0.9 in
 EDGE_LEAST: Final = 0.9 * 0.0254  # [m], CEMA
 # DIN 22101, sum of points up to -> addition to the least cover [m]; general knowledge, middle of each range
@@ -171,6 +174,49 @@ def standard_edge_distance(belt_width: float) -> float:
     """
     require_positive(belt_width=belt_width)
     return EDGE_SHARE * belt_width + EDGE_LEAST
+
+
+def suitable_roll_lengths(length: float, *, belt_width: float, rolls: int) -> tuple[float, float]:
+    """Shortest and longest rolls that do instead of those of a series: the belt still lies on them with its edges.
+
+    The rolls of a set reach n l - B beyond the belt, which runs off centre on them; at least half of that is left, and
+    at most as much again is added, as far as frames of the series take it.
+
+    Parameters
+    ----------
+    length : float
+        Of a roll of the series l [m], positive.
+    belt_width : float
+        B [m], positive, less than the rolls of a set together.
+    rolls : int
+        Number of rolls of a set n, at least 1.
+
+    Returns
+    -------
+    tuple of float
+        Shortest and longest roll [m].
+
+    Raises
+    ------
+    InputError
+        An argument is not positive, or the rolls together are not longer than the belt is wide.
+
+    Notes
+    -----
+    General knowledge: standards give lengths (ISO 1537), no tolerance of sets made of other ones.
+
+    Examples
+    --------
+    Three rolls of 315 mm under 800 mm of belt reach 72.5 mm beyond either edge, those of 291 mm half of it.
+
+    >>> [round(long, 4) for long in suitable_roll_lengths(0.315, belt_width=0.8, rolls=3)]
+    [0.2908, 0.3392]
+    """
+    require_positive(length=length, belt_width=belt_width, rolls=rolls)
+    room = rolls * length - belt_width
+    require(room > 0.0, "length", length, f"> {belt_width / rolls:g}, the belt's width over the number of rolls")
+    spare = ROLL_ROOM_SHARE * room / rolls
+    return length - spare, length + spare
 
 
 def normal_spacings(belt_width: float, *, density: float) -> tuple[float, float]:

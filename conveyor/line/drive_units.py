@@ -10,8 +10,9 @@ from conveyor.line.drive_scenarios import StarterUnit
 from conveyor.line.loop_positions import LoopPosition, LoopPositions
 from conveyor.line.optional_quantities import si_or_default, si_or_none
 from conveyor.models import Conveyor, Drive, DrivePulley
+from conveyor.models.drive import Shaft
 from conveyor.models.part_conflicts import drive_diameter
-from conveyor.units import si
+from conveyor.units import Quantity, si
 
 
 @dataclass(frozen=True)
@@ -71,34 +72,51 @@ def drive_units(conveyor: Conveyor, places: LoopPositions) -> tuple[DriveUnit, .
             friction=pulley.friction,
             wrap_angle=si(pulley.wrap_angle),
             power=si_or_none(pulley.installed_power),
-            brake=si_or_none(pulley.brake_force),
+            brake=_brake_force(conveyor, pulley),
             reduced_mass=_reduced_mass(conveyor, pulley),
             mass_given=pulley.reduced_mass is not None or pulley.inertia is not None,
             radius=_drive_radius(conveyor, pulley),
             starter=None if pulley.starter is None else StarterUnit.of(pulley.starter),
             backstop=pulley.backstop,
-            parts=_drive_parts(pulley, conveyor.drive.service_factor)
-            if any(other.judged for other in pulleys)
-            else None,
+            parts=_drive_parts(conveyor, pulley) if any(other.judged for other in pulleys) else None,
         )
         for name, pulley, share in zip(names, pulleys, _drive_shares(pulleys), strict=True)
     )
 
 
-def _drive_parts(pulley: DrivePulley, service: float) -> DriveParts:
+def _drive_parts(conveyor: Conveyor, pulley: DrivePulley) -> DriveParts:
     return DriveParts(
         motors=pulley.motors,
         rotation=None if pulley.motor_speed is None else si(pulley.motor_speed),
         ratio=pulley.gear_ratio,
-        backstop=si_or_none(pulley.backstop_torque),
+        backstop=_torque_at_pulley(conveyor, pulley, pulley.backstop_torque, pulley.backstop_shaft),
         starts=pulley.starts_per_hour,
         loss=si_or_none(pulley.diameter_loss),
         disc=si_or_none(pulley.brake_disc),
         heat=si_or_none(pulley.brake_heat),
         gearbox=si_or_none(pulley.gear_torque),
         coupling=si_or_none(pulley.coupling_torque),
-        service=service,
+        service=conveyor.drive.service_factor,
     )
+
+
+def _brake_force(conveyor: Conveyor, pulley: DrivePulley) -> float | None:
+    """Force of a drive's brake at the belt [N]; None without one."""
+    torque = _torque_at_pulley(conveyor, pulley, pulley.brake_torque, pulley.brake_shaft)
+    radius = _drive_radius(conveyor, pulley)
+    return si_or_none(pulley.brake_force) if torque is None or radius is None else torque / radius
+
+
+def _torque_at_pulley(conveyor: Conveyor, pulley: DrivePulley, torque: Quantity | None, shaft: Shaft) -> float | None:
+    """Torque at the pulley of one at a shaft of the drive [N m], without losses; None if not given."""
+    if torque is None or shaft == "pulley":
+        return si_or_none(torque)
+    radius = _drive_radius(conveyor, pulley)
+    if pulley.gear_ratio is None and pulley.motor_speed is not None and radius is not None:
+        return si(torque) * si(pulley.motor_speed) * 2.0 * math.pi * radius / si(conveyor.belt.speed)
+    if pulley.gear_ratio is None:
+        raise AssertionError("a torque at the motor's shaft has a ratio, or speed and radius")
+    return si(torque) * pulley.gear_ratio
 
 
 def _drive_radius(conveyor: Conveyor, pulley: DrivePulley) -> float | None:

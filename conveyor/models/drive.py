@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from typing import Annotated, Any, Final, Self
+from typing import Annotated, Any, Final, Literal, Self
 
 from pydantic import ConfigDict, Field, ValidationInfo, model_validator
 
@@ -41,6 +41,9 @@ LEAST_FRICTION: Final = FRICTION_FACTOR_DOWNHILL.value / FRICTION_FACTOR.value
 """Friction relied on for braking over the computed one [-]: f downhill over f, general knowledge."""
 
 
+Shaft = Literal["pulley", "motor"]
+
+
 class DrivePulley(Model):
     """A drive pulley with its motors and its brake."""
 
@@ -58,12 +61,16 @@ class DrivePulley(Model):
     """Share of the whole drive force; of several drives without it in proportion to installed power."""
     brake_force: Annotated[Force, Bounds(gt="0 N", le="10 MN")] | None = None
     """Force of its brake at the belt."""
+    brake_torque: Annotated[Torque, Bounds(gt="0 N*m", le="100 MN*m")] | None = None
+    """Torque of its brake at brake_shaft, instead of brake_force."""
+    brake_shaft: Shaft = "pulley"
+    """Shaft that brake_torque is at; at the motor's it acts by the gear ratio, losses of the gear left out."""
     reduced_mass: Annotated[Mass, Bounds(ge="0 kg", le="10000 t")] | None = None
     """Rotating masses of motor, gear and pulley reduced to the belt; else by inertia, else typical of the power."""
     inertia: Annotated[Inertia, Bounds(ge="0 kg*m^2", le="100000 kg*m^2")] | None = None
     """The same as a moment of inertia at the motor's shaft, of all its motors together; J, in m = J i²/r²."""
     gear_ratio: Annotated[Number, Field(gt=0, le=1000)] | None = None
-    """Speed of the motor over that of the pulley, i; needed beside inertia."""
+    """Speed of the motor over that of the pulley, i; needed beside inertia, and for torques at the motor's shaft."""
     pulley_diameter: Annotated[Length, Bounds(gt="0 m", le="5 m")] | None = None
     """Diameter of its pulley, for torques, inertia and, without route.pulleys, its wrap; else that in route.pulleys."""
     starter: Starter | None = None
@@ -72,7 +79,9 @@ class DrivePulley(Model):
     backstop: Switch | None = None
     """Whether it cannot turn backward, for scenarios; without it the first drive of a belt that would roll back."""
     backstop_torque: Annotated[Torque, Bounds(gt="0 N*m", le="100 MN*m")] | None = None
-    """Torque that its backstop bears, at the pulley."""
+    """Torque that its backstop bears, at backstop_shaft."""
+    backstop_shaft: Shaft = "pulley"
+    """Shaft that backstop_torque is at; at the motor's it bears that times the gear ratio at the pulley."""
     gear_torque: Annotated[Torque, Bounds(gt="0 N*m", le="100 MN*m")] | None = None
     """Rated torque of the gearbox of one motor, at its slow shaft; checked with service_factor."""
     coupling_torque: Annotated[Torque, Bounds(gt="0 N*m", le="100 MN*m")] | None = None
@@ -106,14 +115,17 @@ class DrivePulley(Model):
         if self.inertia is not None and self.reduced_mass is not None:
             message = f"got {text(self.inertia)} beside reduced_mass {text(self.reduced_mass)}; give one of the two"
             problems.append(Problem(("inertia",), message))
-        elif (self.inertia is None) != (self.gear_ratio is None):
-            missing, given = ("gear_ratio", "inertia") if self.gear_ratio is None else ("inertia", "gear_ratio")
-            problems.append(Problem((missing,), f"missing: {given} is given and needs it, or remove {given}"))
+        elif self.inertia is not None and self.gear_ratio is None:
+            problems.append(Problem(("gear_ratio",), "missing: inertia is given and needs it, or remove inertia"))
+        elif self.inertia is None and self.gear_ratio is not None and not self.motor_shaft_field:
+            problems.append(Problem(("inertia",), "missing: gear_ratio is given and needs it, or remove gear_ratio"))
+        problems += self._shaft_problems()
+        brake = self.brake_force if self.brake_torque is None else self.brake_torque
         for field, value, asked, other in (
             ("starts_per_hour", self.starts_per_hour, self.motor_speed, "motor_speed"),
             ("starts_per_hour", self.starts_per_hour, self.installed_power, "installed_power"),
-            ("brake_disc", self.brake_disc, self.brake_force, "brake_force"),
-            ("brake_heat", self.brake_heat, self.brake_force, "brake_force"),
+            ("brake_disc", self.brake_disc, brake, "brake_force"),
+            ("brake_heat", self.brake_heat, brake, "brake_force"),
             ("gear_torque", self.gear_torque, self.installed_power, "installed_power"),
             ("coupling_torque", self.coupling_torque, self.installed_power, "installed_power"),
             ("coupling_torque", self.coupling_torque, self.motor_speed, "motor_speed"),
@@ -125,6 +137,34 @@ class DrivePulley(Model):
             problems.append(Problem(("backstop_torque",), message))
         raise_problems(type(self).__name__, problems)
         return self
+
+    def _shaft_problems(self) -> Iterator[Problem]:
+        """Refuse a brake given twice, and shafts without a torque or a ratio."""
+        if self.brake_force is not None and self.brake_torque is not None:
+            message = f"got {text(self.brake_torque)} beside brake_force {text(self.brake_force)}; give one of the two"
+            yield Problem(("brake_torque",), message)
+        for part, shaft, torque in (
+            ("brake", self.brake_shaft, self.brake_torque), ("backstop", self.backstop_shaft, self.backstop_torque)
+        ):  # fmt: skip
+            if shaft == "motor" and torque is None:
+                message = f"missing: {part}_shaft is given and needs it, or remove {part}_shaft"
+                yield Problem((f"{part}_torque",), message)
+        field = self.motor_shaft_field
+        if field and self.gear_ratio is None and self.motor_speed is None:
+            message = f"missing: {field} is at the motor's shaft and needs it, or motor_speed"
+            yield Problem(("gear_ratio",), message)
+
+    @property
+    def motor_shaft_field(self) -> str:
+        """Name of a torque that is at the motor's shaft; empty if none is."""
+        if self.brake_torque is not None and self.brake_shaft == "motor":
+            return "brake_torque"
+        return "backstop_torque" if self.backstop_torque is not None and self.backstop_shaft == "motor" else ""
+
+    @property
+    def braked(self) -> bool:
+        """True if it has a brake."""
+        return self.brake_force is not None or self.brake_torque is not None
 
     @property
     def judged(self) -> bool:

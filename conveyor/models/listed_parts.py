@@ -15,6 +15,8 @@ from conveyor.units import quantity
 
 _OF_EACH: Final = ("installed_power", "inertia")
 """Fields of one motor; those of a drive are of all its motors together."""
+_HOLDING_FIELDS: Final = (("brake_force", "brake_torque", "brake_shaft"), ("backstop_torque", "backstop_shaft"))
+"""Fields that are one figure together: of a drive that gives its own, none is that of the listed part."""
 
 
 def with_listed_parts(data: Mapping[str, Any], drive: type[BaseModel], info: ValidationInfo) -> Mapping[str, Any]:
@@ -58,7 +60,8 @@ def with_listed_parts(data: Mapping[str, Any], drive: type[BaseModel], info: Val
     ]
     if train and not data.get("train") and data.get("efficiency") is None:
         given["train"] = train
-    usable = {name: value for name, value in given.items() if name in drive.model_fields}
+    own = {name for part in _HOLDING_FIELDS if any(data.get(name) is not None for name in part) for name in part}
+    usable = {name: value for name, value in given.items() if name in drive.model_fields and name not in own}
     of_spec = {name: value for name, value in data.items() if name != "train" or value}
     return merge_fields(usable, of_spec) | {"listed": parts}
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, ClassVar, Literal, Self
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Final, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from conveyor.laws.pulley import Keyway, Steel
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
@@ -44,6 +46,23 @@ def position_problem(position: str, section: str | None) -> list[Problem]:
     return []
 
 
+EUROPEAN_STEELS: Final[Mapping[str, Steel]] = {
+    "c45": "C1045", "c45e": "C1045", "c45r": "C1045", "1.0503": "C1045", "1.1191": "C1045",
+    "42crmo4": "C4140", "42crmos4": "C4140", "1.7225": "C4140", "1.7227": "C4140",
+}  # fmt: skip
+"""Shaft steels by names and numbers of EN ISO 683-1 and -2, and the steel of CEMA B105.1 nearest to them; general
+knowledge: lists of alike steels."""
+
+
+def _refuse_european_steel(value: Any) -> Any:
+    """Refuse a European name of a steel with the American one; anything else as it is."""
+    known = EUROPEAN_STEELS.get(value.replace(" ", "").casefold()) if isinstance(value, str) else None
+    if known is None:
+        return value
+    message = f"of the steels of CEMA B105.1, whose strengths are used, {known} is nearest: write {known}"
+    raise PydanticCustomError("steel", "{message}", {"message": message})
+
+
 class Pulley(LibraryItem):
     """A pulley that bends the belt and turns in bearings."""
 
@@ -73,8 +92,8 @@ class Pulley(LibraryItem):
     """Distance of its hubs, for the shaft."""
     hub_shaft_diameter: Annotated[Length, Bounds(gt="0 m", le="2 m")] | None = None
     """Diameter of the shaft in and between the hubs; that in the bearings without it."""
-    shaft_steel: Steel | None = None
-    """Steel of the shaft, as CEMA B105.1 names it; C1045 is C45."""
+    shaft_steel: Annotated[Steel | None, BeforeValidator(_refuse_european_steel)] = None
+    """Steel of the shaft, as CEMA B105.1 names it; C1045 is C45, C4140 is 42CrMo4, annealed."""
     keyway: Keyway = "profiled"
     """What weakens the shaft in the hub."""
     bearing_rating: Annotated[Force, Bounds(gt="0 N", le="100 MN")] | None = None

@@ -130,6 +130,53 @@ def maker_items(base: Path, *further: Path) -> list[tuple[ListedItem, Path]]:
     return [(item, path) for path in files for item in read_model(MakerList, path).items]
 
 
+def list_file(base: Path, name: str, *, personal: bool = False) -> Path:
+    """File of a kept list that specs of a folder find.
+
+    Parameters
+    ----------
+    base : Path
+        Folder of the specs.
+    name : str
+        Name of the list: that of its file, without ending, in any case.
+    personal : bool, optional
+        Look in the personal folders alone.
+
+    Raises
+    ------
+    InputError
+        There is none, with the lists there are; or there are two.
+    """
+    folders = [each for each in personal_folders() if each.is_dir()] if personal else library_folders(base)
+    files = [path for folder in folders for path in sorted(folder.glob(f"*{SUFFIX}"))]
+    wanted = name.strip().removesuffix(SUFFIX).casefold()
+    found = [path for path in files if path.stem.casefold() == wanted]
+    if len(found) > 1:
+        places = " and ".join(map(str, found))
+        raise InputError(f'"{shorten_text(name)}" is the name of two lists: {places}; --personal takes that at home')
+    if not found:
+        there = " | ".join(path.stem for path in files) or "none"
+        raise InputError(f'no list "{shorten_text(name)}" is kept; there are: {there} (conveyor library list)')
+    return found[0]
+
+
+def named_items(kept: MakerList, path: Path, name: str | None) -> list[ListedItem]:
+    """Items of a list, those of a name in any case; all without a name.
+
+    Raises
+    ------
+    InputError
+        None has the name.
+    """
+    items = list(kept.items)
+    found = [item for item in items if name is None or item.name.casefold() == name.strip().casefold()]
+    if name is not None and not found:
+        near = difflib.get_close_matches(name, [item.name for item in items], n=1)
+        guess = f'did you mean "{near[0]}"?' if near else f"there are: {' | '.join(item.name for item in items)}"
+        raise InputError(f'{path}: no item "{shorten_text(name)}"; {guess}')
+    return found
+
+
 class MakerLists:
     """Makers' lists for specs of a folder, read when a name first asks for them."""
 

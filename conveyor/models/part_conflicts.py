@@ -258,13 +258,17 @@ def _driven_diameter_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
         yield Problem(("route", "pulleys", number, "diameter"), message)
 
 
-def _inertia_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """Require the pulley diameter of a drive with a moment of inertia."""
-    places: list[Location] = [("drive",)]
-    places += [("drive", "further_drives", i) for i in range(len(conveyor.drive.further_drives))]
-    for place, drive in zip(places, conveyor.drive.pulleys, strict=True):
-        if drive.inertia is not None and drive_diameter(conveyor, drive) is None:
-            message = "missing: inertia acts over the pulley's radius; give it, or the pulley in route.pulleys"
+def _radius_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Require the pulley diameter of a drive with a moment of inertia, or a torque that acts by it."""
+    drive = conveyor.drive
+    for i, pulley in enumerate(drive.pulleys):
+        place: Location = ("drive",) if i == 0 else ("drive", "further_drives", i - 1)
+        turned = pulley.motor_shaft_field if pulley.gear_ratio is None else ""
+        field = (
+            "inertia" if pulley.inertia is not None else "brake_torque" if pulley.brake_torque is not None else turned
+        )
+        if field and drive_diameter(conveyor, pulley) is None:
+            message = f"missing: {field} acts over the pulley's radius; give it, or the pulley in route.pulleys"
             yield Problem((*place, "pulley_diameter"), message)
 
 
@@ -460,7 +464,7 @@ CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str
     _discharge_problems: ("calculation", "route"),
     _drive_section_problems: ("drive", "route"),
     _driven_diameter_problems: ("drive", "route"),
-    _inertia_problems: ("drive", "route"),
+    _radius_problems: ("drive", "route"),
     _face_problems: ("belt", "route"),
     _length_coefficient_problems: ("calculation", "route"),
     _flexure_factor_problems: ("calculation", "route"),

@@ -65,9 +65,12 @@ class ListedSeries(Model):
                 if item.kind != kind:
                     problems.append(Problem((kind, i), f'got "{item.name}", which is of {item.kind}'))
                 elif missing:
-                    told = f'"{item.name}" has no {missing}, which sizing needs; add it to the list'
+                    told = (
+                        f'"{item.name}" has no {missing}, which sizing needs; add it to the list, or name the items to '
+                        f"use instead of {ALL}"
+                    )
                     problems.append(Problem((kind, i), told))
-            if kind in {"gearboxes", "couplings"} and self.items(kind) and not self.items("motors"):
+            if self._turned(kind) and not self.items("motors"):
                 told = f"given without listed.motors, whose speed {kind} are chosen by; list motors, or remove {kind}"
                 problems.append(Problem((kind,), told))
         raise_problems(type(self).__name__, problems)
@@ -77,8 +80,17 @@ class ListedSeries(Model):
         """Field that gearboxes or couplings need of a motor; empty if none."""
         if item.kind != "motors":
             return ""
-        needed = _TRAIN_FIELDS if self.items("gearboxes") else _TRAIN_FIELDS[:1] if self.items("couplings") else ()
+        turned = any(self._turned(kind) for kind in ("couplings", "backstops", "brakes"))
+        needed = _TRAIN_FIELDS if self.items("gearboxes") else _TRAIN_FIELDS[:1] if turned else ()
         return next((name for name in needed if name not in item.fields), "")
+
+    def _turned(self, kind: MakerKind) -> bool:
+        """True if items of a kind are chosen by the speed of the motor."""
+        at_motor = {"backstops": "backstop_shaft", "brakes": "brake_shaft"}.get(kind)
+        return any(
+            kind in {"gearboxes", "couplings"} or (at_motor is not None and item.fields.get(at_motor) == "motor")
+            for item in self.items(kind)
+        )
 
     def items(self, kind: MakerKind) -> tuple[ListedItem, ...]:
         """Items of a kind; names are items once they are read."""

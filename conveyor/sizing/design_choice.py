@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from typing import Final
+from dataclasses import dataclass, field, replace
+from typing import Final, NamedTuple
 
 from conveyor.errors import RangeError
 from conveyor.laws.belt_strength import CLASSIC_SAFETY, least_cover
 from conveyor.laws.idler_sets import CemaClass, rated_set_load
-from conveyor.laws.preliminary_sizing import carcass_mass, roll_shell_mass
+from conveyor.laws.preliminary_sizing import carcass_mass, roll_shell_mass, suitable_roll_lengths
 from conveyor.laws.tension import least_pulley_diameter, usual_stiffness
 from conveyor.models.maker_lists import ListedItem
-from conveyor.models.sizing import DriveLayout, same_width
+from conveyor.models.sizing import DriveLayout, within_limit
 from conveyor.units import from_si
 
 _V_ANGLE: Final = math.radians(10.0)
@@ -84,11 +84,20 @@ class CarcassClass:
         return least_pulley_diameter(self.thickness, carcass="steel cord" if self.steel_cord else "EP")
 
 
+class RollPiece(NamedTuple):
+    """A roll of a maker's list: its name, length [m], rotating mass [kg] and bearing rating C [N]."""
+
+    name: str
+    length: float
+    mass: float
+    rating: float
+
+
 @dataclass(frozen=True)
 class RollSize:
     """Rolls of one diameter [m]: wall [m], mass of the ends [kg], bearing rating C [N], CEMA class of their sets.
 
-    `pieces`: lengths [m], masses [kg] and names of a maker's list; without them rolls of any length.
+    `pieces`: those of a maker's list; without them rolls of any length.
     """
 
     diameter: float
@@ -96,21 +105,42 @@ class RollSize:
     ends: float
     rating: float
     cema_class: CemaClass | None = None
-    pieces: tuple[tuple[float, float, str], ...] = ()
+    pieces: tuple[RollPiece, ...] = ()
 
-    def piece(self, length: float) -> tuple[float, str] | None:
-        """Mass [kg] and name of a listed roll of a length; None if there is none."""
-        return next(((mass, name) for long, mass, name in self.pieces if same_width(long, length)), None)
+    def piece(self, length: float, shortest: float, longest: float) -> RollPiece | None:
+        """Listed roll between two lengths, None if there is none.
 
-    def has(self, *lengths: float) -> bool:
-        """True if there are rolls of all lengths."""
-        return not self.pieces or all(self.piece(length) is not None for length in lengths)
+        That of the rating, else the next better, else the best; of those the nearest to a length, then the lightest.
+        """
+        near = [one for one in self.pieces if within_limit(shortest, one.length) and within_limit(one.length, longest)]
+        return min(
+            near,
+            key=lambda one: (
+                one.rating < self.rating,
+                abs(one.rating - self.rating),
+                abs(one.length - length),
+                one.mass,
+            ),
+            default=None,
+        )
+
+    def listed(self, length: float) -> RollPiece | None:
+        """Listed roll of a length that a set has; None without a list."""
+        return self.piece(length, length, length)
+
+    def nearest(self, width: WidthSize) -> tuple[float, float]:
+        """Lengths of the listed rolls nearest to those of the carry and return sets of a width [m]."""
+        carry, back = (
+            min((one.length for one in self.pieces), key=lambda long: abs(long - wanted))
+            for wanted, _, _ in width.suitable_lengths
+        )
+        return carry, back
 
     def mass(self, length: float) -> float:
         """Rotating mass of a roll of a length [kg]."""
-        listed = self.piece(length)
+        listed = self.listed(length)
         if listed is not None:
-            return listed[0]
+            return listed.mass
         return roll_shell_mass(self.diameter, wall=self.wall, length=length) + self.ends
 
     def set_rating(self, width: float, angle: float, rolls: int) -> float:
@@ -141,6 +171,25 @@ class WidthSize:
     def return_rolls(self) -> tuple[int, float, float]:
         """Number, length [m] and trough angle [rad] of the rolls of a return set."""
         return (2, self.two, _V_ANGLE) if self.vee else (1, self.one, 0.0)
+
+    @property
+    def suitable_lengths(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+        """Length of the rolls of carry and of return sets, the shortest and the longest that do instead [m]."""
+        count, back, _ = self.return_rolls
+        return (
+            (self.three, *suitable_roll_lengths(self.three, belt_width=self.belt, rolls=3)),
+            (back, *suitable_roll_lengths(back, belt_width=self.belt, rolls=count)),
+        )
+
+    def with_rolls(self, roll: RollSize) -> WidthSize | None:
+        """The width with the lengths of listed rolls; None if none do for the sets of both strands."""
+        if not roll.pieces:
+            return self
+        carry, back = (roll.piece(*lengths) for lengths in self.suitable_lengths)
+        if carry is None or back is None:
+            return None
+        with_carry = replace(self, three=carry.length)
+        return replace(with_carry, two=back.length) if self.vee else replace(with_carry, one=back.length)
 
 
 @dataclass(frozen=True)

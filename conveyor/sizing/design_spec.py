@@ -246,9 +246,9 @@ def _motor_fields(
 
 
 def _roll_fields(task: SizingTask, roll: RollSize, length: float) -> dict[str, Any]:
-    listed = roll.piece(length)
+    listed = roll.listed(length)
     if listed is not None:
-        return {"listed": named_item(task.duty.listed.items("rolls"), listed[1])}
+        return {"listed": named_item(task.duty.listed.items("rolls"), listed.name)}
     return {
         "diameter": _field_text(task, roll.diameter, "mm"),
         "length": _field_text(task, length, "mm"),

@@ -9,8 +9,9 @@ from typing import NoReturn
 from conveyor.errors import NoSolutionError
 from conveyor.laws.preliminary_sizing import least_width_for_lumps, standard_edge_distance
 from conveyor.models.sizing import within_limit
+from conveyor.sizing.design_choice import WidthSize
 from conveyor.sizing.sizing_task import SizingTask
-from conveyor.units import text
+from conveyor.units import from_si, text
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import percent
 
@@ -68,18 +69,17 @@ def refuse_duty(task: SizingTask) -> NoReturn:
             f"the bulk leaves {edge} of either edge of the belt free, CEMA asks for {asked}: allow wider or faster "
             "belts (rules.widths, rules.speeds, rules.fastest)"
         )
-    if not any(task.usual(roll, pair[0]) for pair in pairs for roll in task.rolls):
-        raise NoSolutionError(
-            "no rolls that may be chosen are of the diameters and lengths that the sets of the belts that take the "
-            "flow need: list further ones (listed.rolls), or allow others (rules.roll_diameters, rules.widths)"
-        )
-    rolling = [
-        (v / (math.pi * roll.diameter), roll, v)
-        for trough, v in pairs
-        if task.filling(trough, v) is not None
-        for roll in task.rolls
-        if task.usual(roll, trough)
+    on_rolls = [
+        (roll, on, v) for trough, v in pairs for roll in task.rolls if (on := task.trough_on(roll, trough)) is not None
     ]
+    if not on_rolls:
+        raise NoSolutionError(_missing_rolls(task, pairs[0][0].width))
+    rolling = [(v / (math.pi * roll.diameter), roll, v) for roll, on, v in on_rolls if task.filling(on, v) is not None]
+    if not rolling:
+        raise NoSolutionError(
+            "with the lengths of the listed rolls no belt keeps the filling and the free edges asked for: list further "
+            "ones (listed.rolls), or allow wider or faster belts (rules.widths, rules.speeds, rules.filling)"
+        )
     turns, roll, slowest_belt = min(rolling, key=itemgetter(0))
     if not task.turns_slowly(roll, slowest_belt):
         at, size, turn = (
@@ -94,4 +94,28 @@ def refuse_duty(task: SizingTask) -> NoReturn:
     raise NoSolutionError(
         "no class of rolls of the series has sets for the widths and troughs that take the flow: allow others "
         "(rules.widths, rules.trough_angles, rules.series)"
+    )
+
+
+def _missing_rolls(task: SizingTask, width: WidthSize) -> str:
+    """Words of a duty without rolls for its belts: lengths that a width needs, and the nearest there are."""
+    unit, digits = ("in", 2) if task.duty.report.units == "US" else ("mm", 0)
+
+    def size(value: float) -> str:
+        """Length to the last digit that rolls are listed by."""
+        return f"{from_si(value, 'length', unit).magnitude:.{digits}f} {unit}"
+
+    carry, back = (
+        f"{size(length)} ({size(shortest)} to {size(longest)})" for length, shortest, longest in width.suitable_lengths
+    )
+    needed = f"a belt of {size(width.belt)} needs rolls of one diameter, {carry} long for carry sets, {back} for return"
+    cure = "list further ones (listed.rolls), or allow others (rules.roll_diameters, rules.widths)"
+    if not any(roll.pieces for roll in task.rolls):
+        return f"no rolls that may be chosen are of the diameters that the belts that take the flow need: {cure}"
+    near = [
+        f"{size(roll.diameter)}: {' and '.join(size(long) for long in dict.fromkeys(roll.nearest(width)))}"
+        for roll in {roll.diameter: roll for roll in task.rolls}.values()
+    ]
+    return f"no listed rolls are of the diameters and lengths that the belts that take the flow need: {needed}; " + (
+        f"the nearest listed, by diameter, are {'; '.join(near)}: {cure}"
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -95,8 +95,9 @@ def _with_items(of: _Selection, demand: HoldingDemand) -> SelectedParts:
     torque = max(held, demand.stalled if held > 0.0 else 0.0)
     kept = None if before is None else before.backstop
     torque = torque if kept is None else max(torque, kept.needed)
-    backstop = of.smallest("backstops", "backstop_torque", "torque", torque) if torque > 0.0 else None
-    brake = of.brake(demand) if of.chosen.brake > 0.0 else None
+    turning = speed / (math.pi * diameter)
+    backstop = of.backstop(torque, turning) if torque > 0.0 else None
+    brake = of.brake(demand, 0.5 * diameter, turning) if of.chosen.brake > 0.0 else None
     listed = ListedParts(diameter, speed, of.select_pulleys(pulley), gearbox, of.coupling(), backstop, brake)
     return replace(
         of.chosen,
@@ -120,34 +121,62 @@ class _Selection:
         return self.task.duty.listed.items(kind)
 
     def smallest(
-        self, kind: MakerKind, field: str, quantity: str, needed: float, fit: Sequence[ListedItem] | None = None
-    ) -> ListedPart | None:
-        """Item with the smallest rated figure that is enough; None if the kind is not listed."""
-        if not self.items(kind):
-            return None
-        rated = {item.name: read_si(item.fields[field], quantity) for item in self.items(kind)}
-        there = sorted(self.items(kind) if fit is None else fit, key=lambda item: rated[item.name])
-        item = next((item for item in there if within_limit(needed, rated[item.name])), None)
+        self, rated: Mapping[str, float], quantity: str, needed: float, fit: Sequence[ListedItem]
+    ) -> ListedPart:
+        """Item with the smallest rated figure that is enough, of those that fit; `rated` has that of every name."""
+        item = min(
+            (item for item in fit if within_limit(needed, rated[item.name])),
+            key=lambda item: rated[item.name],
+            default=None,
+        )
         if item is None:
-            most = max(self.items(kind), key=lambda item: rated[item.name])
+            most = max(self.items(fit[0].kind), key=lambda item: rated[item.name])
             raise _too_small(most, quantity, needed, rated[most.name])
         return ListedPart("drive", item, quantity, needed, rated[item.name])
 
-    def brake(self, demand: HoldingDemand) -> ListedPart | None:
-        """Smallest brake that holds the belt and takes the heat of a stop, if its list has that."""
+    def backstop(self, needed: float, turning: float) -> ListedPart | None:
+        """Smallest backstop that bears a torque at the pulley [N m], which turns at a speed [1/s]."""
+        items = self.items("backstops")
+        rated = {item.name: self._torque_at_pulley(item, "backstop", turning) for item in items}
+        return self.smallest(rated, "torque", needed, items) if items else None
+
+    def brake(self, demand: HoldingDemand, radius: float, turning: float) -> ListedPart | None:
+        """Smallest brake that holds the belt and takes the heat of a stop, if its list has that.
+
+        `radius` [m] and `turning` [1/s] are those of its pulley.
+        """
+        items = self.items("brakes")
+        if not items:
+            return None
         needed = demand.brake if demand.brake > 0.0 else self.chosen.brake
         able = [
             item
-            for item in self.items("brakes")
+            for item in items
             if "brake_heat" not in item.fields
             or within_limit(demand.heat, read_si(item.fields["brake_heat"], "heat"))
         ]  # fmt: skip
-        if self.items("brakes") and not able:
-            heats = {item.name: read_si(item.fields["brake_heat"], "heat") for item in self.items("brakes")}
-            most = max(self.items("brakes"), key=lambda item: heats[item.name])
+        if not able:
+            heats = {item.name: read_si(item.fields["brake_heat"], "heat") for item in items}
+            most = max(items, key=lambda item: heats[item.name])
             raise _too_small(most, "heat", demand.heat, heats[most.name])
-        made = self.smallest("brakes", "brake_force", "force", max(needed, self.chosen.brake), able)
-        return None if made is None else replace(made, needed=needed)
+        rated = {
+            item.name: read_si(item.fields["brake_force"], "force")
+            if "brake_force" in item.fields
+            else self._torque_at_pulley(item, "brake", turning) / radius
+            for item in items
+        }
+        made = self.smallest(rated, "force", max(needed, self.chosen.brake), able)
+        return replace(made, needed=needed)
+
+    def _torque_at_pulley(self, item: ListedItem, part: str, turning: float) -> float:
+        """Torque of a brake or backstop at the pulley [N m]; of one at the motor's shaft by the ratio."""
+        torque = read_si(item.fields[f"{part}_torque"], "torque")
+        motor, _ = self._motor()
+        if item.fields.get(f"{part}_shaft", "pulley") == "pulley":
+            return torque
+        if motor is None:
+            raise AssertionError("parts at the motor's shaft are listed with motors only")
+        return torque * read_si(motor.fields["motor_speed"], "rotation") / turning
 
     def coupling(self) -> ListedPart | None:
         """Coupling of a motor by its torque with the service factor."""
@@ -156,7 +185,9 @@ class _Selection:
             return None
         turn = read_si(motor.fields["motor_speed"], "rotation")
         needed = gear_torque(power, rotation=turn, service=self.task.rules.service_factor)
-        return self.smallest("couplings", "coupling_torque", "torque", needed)
+        items = self.items("couplings")
+        rated = {item.name: read_si(item.fields["coupling_torque"], "torque") for item in items}
+        return self.smallest(rated, "torque", needed, items)
 
     def drive(self) -> tuple[ListedPart | float, ListedPart | None, float]:
         """Drive pulley, or its diameter in the series, its gearbox, and the belt speed of both [m/s]."""

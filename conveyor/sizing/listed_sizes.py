@@ -9,29 +9,24 @@ from conveyor.laws.belt_strength import RATED_SAFETY
 from conveyor.models.belt import RUBBER_DENSITY
 from conveyor.models.maker_lists import ListedItem
 from conveyor.models.sizing import Carcasses
-from conveyor.sizing.design_choice import CarcassClass, RollSize
+from conveyor.sizing.design_choice import CarcassClass, RollPiece, RollSize
 from conveyor.units import read_si
 
 
 def listed_rolls(items: Sequence[ListedItem]) -> tuple[RollSize, ...]:
-    """Rolls of each diameter and bearing; where a length has none of that bearing, the next better, else the best."""
-    sizes = {item.name: _roll_figures(item) for item in items}
-    rolls = []
-    for diameter, rating in sorted({(diameter, rating) for diameter, _, _, rating in sizes.values()}):
-        pieces = []
-        for long in sorted({length for size, length, _, _ in sizes.values() if size == diameter}):
-            alike = {name: of for name, of in sizes.items() if of[:2] == (diameter, long)}
-            name = min(alike, key=lambda each: (alike[each][3] < rating, abs(alike[each][3] - rating), alike[each][2]))
-            pieces.append((long, alike[name][2], name))
-        rolls.append(RollSize(diameter, 0.0, 0.0, rating, pieces=tuple(pieces)))
-    return tuple(rolls)
+    """Rolls of each diameter and bearing, with all lists' pieces of that diameter."""
+    sizes = [(read_si(item.fields["diameter"], "length"), _roll_piece(item)) for item in items]
+    return tuple(
+        RollSize(diameter, 0.0, 0.0, rating, pieces=tuple(piece for size, piece in sizes if size == diameter))
+        for diameter, rating in sorted({(size, piece.rating) for size, piece in sizes})
+    )
 
 
-def _roll_figures(item: ListedItem) -> tuple[float, float, float, float]:
-    """Diameter, length [m], mass [kg] and rating [N] of a roll."""
+def _roll_piece(item: ListedItem) -> RollPiece:
+    """A roll of a list in SI."""
     fields = item.fields
-    return (
-        read_si(fields["diameter"], "length"),
+    return RollPiece(
+        item.name,
         read_si(fields["length"], "length"),
         read_si(fields["rotating_mass"], "mass"),
         read_si(fields["bearing"]["dynamic_rating"], "force"),

@@ -7,9 +7,8 @@ resistance is that of its factors. The estimate only selects what to calculate: 
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import attrgetter
 from typing import Final, Literal, NamedTuple
@@ -91,6 +90,18 @@ class TroughAtSpeed(NamedTuple):
     roll: RollSize
 
 
+def _running_troughs(task: SizingTask) -> Iterator[TroughAtSpeed]:
+    """Every trough at every speed on every rolls that keep the rules."""
+    for trough in task.troughs:
+        rolling = [(roll, on) for roll in task.rolls if (on := task.trough_on(roll, trough)) is not None]
+        for speed in task.speeds:
+            fillings = {on: task.filling(on, speed) for on in dict.fromkeys(on for _, on in rolling)}
+            for roll, on in rolling:
+                filling = fillings[on]
+                if filling is not None and task.suits(roll, on, speed):
+                    yield TroughAtSpeed(on, speed, filling, roll)
+
+
 @dataclass(frozen=True, eq=False)
 class Candidates:
     """All combinations within the rules of width, lumps, filling, edge distance and rotation.
@@ -110,13 +121,7 @@ class Candidates:
     @classmethod
     def of(cls, task: SizingTask) -> Candidates:
         """Combine the free choices of a duty."""
-        running = tuple(
-            TroughAtSpeed(trough, speed, filling, roll)
-            for trough, speed in itertools.product(task.troughs, task.speeds)
-            if (filling := task.filling(trough, speed)) is not None
-            for roll in task.rolls
-            if task.suits(roll, trough, speed)
-        )
+        running = tuple(_running_troughs(task))
         carry, back = task.spacings
         series = (running, carry, back, task.bottom_covers, task.kinds, task.rules.drives)
         numbers = np.indices([len(one) for one in series]).reshape(len(series), -1).T

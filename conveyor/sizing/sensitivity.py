@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
 from conveyor.models.sizing import within_limit
-from conveyor.sizing.design_choice import DesignChoice, RollSize, TroughSize
+from conveyor.sizing.design_choice import DesignChoice, TroughSize
 from conveyor.sizing.part_sizing import foresee_parts, size_parts
 from conveyor.sizing.sized_design import Shortfall, SizedDesign
 from conveyor.sizing.sizing_task import SizingTask
@@ -170,10 +170,11 @@ def _choice_axes(task: SizingTask, base: DesignChoice, bottom: float) -> Iterato
         base.back,
         [(a, replace(base, back=a)) for a in back if a >= base.carry],
     )
-    rolls = _suitable_rolls(task, base, base.trough, base.speed)
-    yield (
-        "roll diameter", "size", base.roll.diameter, [(roll.diameter, replace(base, roll=roll)) for roll in rolls]
-    )  # fmt: skip
+    same = next(
+        one for one in task.troughs if _same_angle(one, base.trough) and one.width.belt == base.trough.width.belt
+    )
+    rolls = _choices_on(task, base, same, base.speed)
+    yield "roll diameter", "size", base.roll.diameter, [(one.roll.diameter, one) for one in rolls]
     yield (
         "belt speed, each with the narrowest belt",
         "speed",
@@ -187,18 +188,25 @@ def _choice_axes(task: SizingTask, base: DesignChoice, bottom: float) -> Iterato
 
 def _choice_at_speed(task: SizingTask, base: DesignChoice, speed: float) -> DesignChoice | None:
     """Choice at another speed, with the narrowest belt within the rules and the smallest rolls."""
-    alike = sorted((one for one in task.troughs if one.angle == base.trough.angle), key=lambda one: one.width.belt)
-    fits = [(one, filling) for one in alike if (filling := task.filling(one, speed)) is not None]
-    rolls = [
-        roll
-        for roll in (_suitable_rolls(task, base, fits[0][0], speed) if fits else ())
-        if roll.diameter >= base.roll.diameter
+    for trough in sorted(
+        (one for one in task.troughs if _same_angle(one, base.trough)), key=lambda one: one.width.belt
+    ):
+        if task.filling(trough, speed) is not None:
+            fits = _choices_on(task, base, trough, speed)
+            return next((one for one in fits if one.roll.diameter >= base.roll.diameter), None)
+    return None
+
+
+def _same_angle(trough: TroughSize, other: TroughSize) -> bool:
+    """True if two troughs have the same angle."""
+    return trough.angle == other.angle
+
+
+def _choices_on(task: SizingTask, base: DesignChoice, trough: TroughSize, speed: float) -> list[DesignChoice]:
+    """Choices with a trough of the series at a speed, on all rolls of the design's class that suit."""
+    return [
+        replace(base, trough=on, filling=filling, speed=speed, roll=roll)
+        for roll in task.rolls
+        if roll.cema_class == base.roll.cema_class and (on := task.trough_on(roll, trough)) is not None
+        if (filling := task.filling(on, speed)) is not None and task.suits(roll, on, speed)
     ]
-    if not rolls:
-        return None
-    return replace(base, trough=fits[0][0], filling=fits[0][1], speed=speed, roll=rolls[0])
-
-
-def _suitable_rolls(task: SizingTask, base: DesignChoice, trough: TroughSize, speed: float) -> list[RollSize]:
-    """Rolls of the design's class that suit a trough at a speed."""
-    return [one for one in task.rolls if one.cema_class == base.roll.cema_class and task.suits(one, trough, speed)]

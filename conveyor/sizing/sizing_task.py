@@ -327,16 +327,35 @@ class SizingTask:
             if asked and not any(same_width(belt, one) for one in asked):
                 continue
             for angle in map(si, self.trough_angles):
-                section = cross_section(
-                    usable_width(width.belt),
-                    middle_roll_length=width.three,
-                    trough_angle=angle,
-                    surcharge_angle=surcharge,
-                )
-                area = section.on_slope(self.steepest, surcharge_angle=si(self.duty.material.surcharge_angle))
-                if area > 0.0:
-                    shapes.append(TroughSize(width, angle, area))
+                trough = self._trough(width, angle)
+                if trough.area > 0.0:
+                    shapes.append(trough)
         return tuple(shapes)
+
+    def _trough(self, width: WidthSize, angle: float) -> TroughSize:
+        """Trough of a width and angle [rad] with the bulk that the steepest section holds."""
+        material = self.duty.material
+        section = cross_section(
+            usable_width(width.belt),
+            middle_roll_length=width.three,
+            trough_angle=angle,
+            surcharge_angle=material.surcharge,
+        )
+        return TroughSize(width, angle, section.on_slope(self.steepest, surcharge_angle=si(material.surcharge_angle)))
+
+    def trough_on(self, roll: RollSize, trough: TroughSize) -> TroughSize | None:
+        """A trough of the series with the lengths of listed rolls; None if rolls are not usual or none do for it."""
+        usual, width = trough.width.diameters, trough.width.with_rolls(roll)
+        if width is None or (usual and not any(same_width(roll.diameter, one) for one in usual)):
+            return None
+        return trough if width == trough.width else self._trough(width, trough.angle)
+
+    @property
+    def widths_without_rolls(self) -> tuple[float, ...]:
+        """Widths of belts that take the flow, but for which no rolls of the lists do [m]."""
+        taking = [one for one in self.troughs if any(self.filling(one, v) is not None for v in self.speeds)]
+        rolling = {one.width.belt for one in taking for roll in self.rolls if self.trough_on(roll, one) is not None}
+        return tuple(dict.fromkeys(one.width.belt for one in taking if one.width.belt not in rolling))
 
     def filled(self, trough: TroughSize, speed: float) -> float:
         """Share of the cross-section under bulk [-]."""
@@ -394,16 +413,8 @@ class SizingTask:
         return usual_lump_factor(self.lump, si(self.duty.material.heaviest)) or 1.0
 
     def suits(self, roll: RollSize, trough: TroughSize, speed: float) -> bool:
-        """True if rolls are usual for a width, have sets for a trough, and turn slowly enough."""
-        return self.usual(roll, trough) and self.turns_slowly(roll, speed) and min(self.set_ratings(roll, trough)) > 0.0
-
-    @staticmethod
-    def usual(roll: RollSize, trough: TroughSize) -> bool:
-        """True if rolls are of a diameter asked for, or usual for the width, and of the lengths of its sets."""
-        usual = trough.width.diameters
-        if not roll.has(trough.width.three, trough.width.return_rolls[1]):
-            return False
-        return not usual or any(same_width(roll.diameter, one) for one in usual)
+        """True if rolls have sets for a trough and turn slowly enough."""
+        return self.turns_slowly(roll, speed) and min(self.set_ratings(roll, trough)) > 0.0
 
     def widest_spacings(self, trough: TroughSize) -> tuple[float, float]:
         """Widest carry and return spacings for a width and the bulk [m]; infinite where the duty gives its own."""

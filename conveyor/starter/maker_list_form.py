@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Final
 
@@ -29,6 +29,18 @@ _TEXTS: Final = {
     "source": "Maker, list, edition and page.",
     "note": "What else is to be said, such as part number, article; no figure uses it.",
 }
+
+_MEANINGS: Final[Mapping[tuple[MakerKind, str], str]] = {
+    ("motors", "installed_power"): "Rated power of one motor.",
+    ("motors", "inertia"): "Of one motor, at its shaft.",
+    ("motors", "efficiency"): "Of the motor: power at its shaft over that from the mains.",
+    ("gearboxes", "gear_ratio"): "Speed of its fast shaft over that of the slow one.",
+    ("gearboxes", "efficiency"): "Of the gearbox alone, from its fast to its slow shaft.",
+    ("gearboxes", "gear_torque"): "Rated torque at its slow shaft.",
+    ("couplings", "efficiency"): "Of the coupling alone, its slip included.",
+    ("couplings", "coupling_torque"): "Rated torque.",
+}
+"""What a column of an item means where the field of the spec says it of the whole drive."""
 
 
 @check_arguments
@@ -81,7 +93,7 @@ def maker_list_form() -> bytes:
             sheet.column_dimensions[get_column_letter(number)].width = 30 if path in _TEXTS else max(15, len(path) + 2)
             for each in range(2, _ROWS + 2):
                 sheet.cell(each, number).fill = INPUT_FILL
-            about = (kind.capitalize(), path, unit, "yes" if needed else "", meaning, allowed)
+            about = (kind.capitalize(), path, unit, needed, meaning, allowed)
             for column, said in enumerate(about, start=1):
                 write_value(explained.cell(row, column), said)
                 explained.cell(row, column).alignment = Alignment(wrap_text=column > 4, vertical="top")
@@ -104,12 +116,14 @@ def _fit_width(sheet: Worksheet) -> None:
     sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
 
 
-def _list_columns(kind: MakerKind) -> Iterator[tuple[str, str, bool, str, str]]:
-    """Path, unit, whether needed, meaning and allowed values of the columns of a kind."""
+def _list_columns(kind: MakerKind) -> Iterator[tuple[str, str, str, str, str]]:
+    """Path, unit, "yes" if needed, meaning and allowed values of the columns of a kind."""
     form = LIST_FORMS[kind]
     for path in ("name", "source"):
-        yield path, "", True, _TEXTS[path], ""
+        yield path, "", "yes", _TEXTS[path], ""
     for path, unit in form.columns.items():
         leaf: FormField = form.leaf(path)
-        yield path, unit, path in form.needed, leaf.doc, allowed_text(leaf)
-    yield "note", "", False, _TEXTS["note"], ""
+        other = " or ".join(each for each in form.either if each != path) if path in form.either else ""
+        needed = "yes" if path in form.needed else f"or {other}" if other else ""
+        yield path, unit, needed, _MEANINGS.get((kind, path), leaf.doc), allowed_text(leaf)
+    yield "note", "", "", _TEXTS["note"], ""

@@ -124,11 +124,33 @@ def test_where_no_item_is_enough_demand_and_largest_are_named(tmp_path, listed, 
 def test_a_downhill_belt_is_held_by_a_listed_brake_that_bears_the_heat(tmp_path):
     """BR1 is too weak and BR40 bears 1 kJ, a stop of some tons at 2.5 m/s has more."""
     down = DUTY.replace("lift: 25 m", "lift: -30 m")
-    best = size(tmp_path, "{brakes: all}", duty=down).best
+    best = size(tmp_path, "{brakes: [BR1, BR40, BR60]}", duty=down).best
     part = best.chosen.listed.brake
     assert part.item.name == "BR60"
     assert si(best.conveyor.drive.brake_force) == pytest.approx(60e3)
     assert part.needed < 60e3
+
+
+def test_a_brake_at_the_motors_shaft_is_judged_by_its_force_at_the_belt(tmp_path):
+    """1485 rpm over 2.5 m/s on a pulley of 0.5 m is a ratio of 15.551: 700 N m are 43.5 kN, 1200 N m 74.6 kN."""
+    down = DUTY.replace("lift: 25 m", "lift: -30 m")
+    best = size(tmp_path, "{motors: [M110], pulleys: [stout], brakes: [ED700, ED1200]}", duty=down).best
+    part, ratio = best.chosen.listed.brake, 1485.0 / 60.0 * math.pi * 0.5 / 2.5
+    rated = {"ED700": 700.0 * ratio / 0.25, "ED1200": 1200.0 * ratio / 0.25}
+    assert part.rated == pytest.approx(rated[part.item.name])
+    assert part.item.name == next(name for name, force in rated.items() if force >= part.needed)
+    assert best.found.line.drives[0].brake == pytest.approx(part.rated, rel=1e-4)  # four decimals of the ratio
+    assert not [check for check in every_load(best.conveyor).governing if check.failed]
+
+
+def test_a_backstop_at_the_motors_shaft_is_judged_at_the_pulley(sizing, tmp_path):
+    """What B11 bears at the pulley, 11 kN m, are 679 N m at the shaft of a motor of the ratio 16.2."""
+    listed = TRAIN.replace("[B1, B11, B18]", "[HS600, HS690]")
+    part = size(tmp_path, listed).best.chosen.listed.backstop
+    assert part.needed == pytest.approx(sizing.best.chosen.listed.backstop.needed, rel=1e-6)
+    rated = {"HS600": 600.0 * 16.2, "HS690": 690.0 * 16.2}
+    assert part.rated == pytest.approx(rated[part.item.name])
+    assert part.item.name == next(name for name, torque in rated.items() if torque >= part.needed)
 
 
 def test_a_duty_in_us_units_is_refused_in_them(tmp_path):

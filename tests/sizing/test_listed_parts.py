@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
 
 import conveyor
 from conveyor.errors import InputError, NoSolutionError
+from conveyor.laws.loading import cross_section, usable_width
 from conveyor.models.belt import RUBBER_DENSITY
 from conveyor.models.maker_lists import ListedItem
-from conveyor.models.sizing import SizingDuty
+from conveyor.models.sizing import SizingDuty, size_series
 from conveyor.sizing import size_conveyor
+from conveyor.sizing.design_choice import WidthSize
 from conveyor.sizing.listed_sizes import listed_carcasses, listed_rolls
 from conveyor.spec import dump_given, fingerprint
 from conveyor.studies.loads import every_load
@@ -58,10 +61,14 @@ backstops:
   B1: {source: "list G", fields: {backstop_torque: 1 kN*m}}
   B11: {source: "list G", fields: {backstop_torque: 11 kN*m}}
   B18: {source: "list G", fields: {backstop_torque: 18 kN*m}}
+  HS600: {source: "list G", fields: {backstop_torque: 600 N*m, backstop_shaft: motor}}
+  HS690: {source: "list G", fields: {backstop_torque: 690 N*m, backstop_shaft: motor}}
 brakes:
   BR1: {source: "list H", fields: {brake_force: 1 kN}}
   BR40: {source: "list H", fields: {brake_force: 40 kN, brake_heat: 1 kJ}}
   BR60: {source: "list H", fields: {brake_force: 60 kN, brake_heat: 5 MJ}}
+  ED700: {source: "list H", fields: {brake_torque: 700 N*m, brake_shaft: motor}}
+  ED1200: {source: "list H", fields: {brake_torque: 1200 N*m, brake_shaft: motor}}
 """
 DUTY = """\
 name: Listed
@@ -141,13 +148,62 @@ def test_rolls_of_a_bearing_take_the_next_better_where_a_length_has_none():
         return ListedItem(kind="rolls", name=name, source="list", fields=fields)
 
     made = listed_rolls([roll("a", 315, 14.0), roll("b", 315, 22.0), roll("c", 950, 20.0)])
-    assert [(of.rating, [name for _, _, name in of.pieces]) for of in made] == [
+    assert [(of.rating, [of.listed(long).name for long in (0.315, 0.95)]) for of in made] == [
         (pytest.approx(14e3), ["a", "c"]),
         (pytest.approx(20e3), ["b", "c"]),
         (pytest.approx(22e3), ["b", "c"]),
     ]
-    assert made[0].has(0.315, 0.95)
-    assert not made[0].has(0.38)
+    assert made[0].listed(0.38) is None
+
+
+WIDTH_800 = WidthSize(0.8, 0.95, 0.465, 0.315, vee=False)
+
+
+@pytest.mark.parametrize(
+    ("carry", "back", "chosen"),
+    [
+        (["314 mm", "12.402 in", "340 mm"], ["950 mm"], (0.3150108, 0.95)),  # 12.402 in are the nearest to 315 mm
+        (["13.25 in"], ["39 in"], (0.33655, 0.9906)),  # rolls of 36 in belts
+        (["11.25 in"], ["950 mm"], None),  # three of 285.75 mm: 57 mm more than the belt, half of 145 mm is 72.5 mm
+        (["315 mm"], ["870 mm"], None),  # 70 mm more than the belt, half of 150 mm is 75 mm
+        (["340 mm"], ["950 mm"], None),  # 220 mm more than the belt, one and a half times 145 mm is 217.5 mm
+    ],
+)
+def test_rolls_do_where_the_belt_lies_on_them_with_its_edges(carry, back, chosen):
+    def roll(name: str, length: str) -> ListedItem:
+        fields = {"diameter": "108 mm", "length": length, "rotating_mass": "5 kg",
+                  "bearing": {"dynamic_rating": "14 kN", "distance": "1 m"}}  # fmt: skip
+        return ListedItem(kind="rolls", name=name, source="list", fields=fields)
+
+    (size,) = listed_rolls([roll(long, long) for long in (*carry, *back)])
+    found = WIDTH_800.with_rolls(size)
+    assert (found and (found.three, found.one)) == (chosen and pytest.approx(chosen))
+
+
+@pytest.mark.parametrize("series", ["metric", "US"])
+def test_the_shortest_rolls_that_do_bear_every_belt_of_the_series(series):
+    for row in size_series(series).widths:
+        belt, vee = si(row.belt), si(row.belt) >= si(size_series(series).vee_from)
+        width = WidthSize(belt, si(row.one), si(row.two), si(row.three), vee)
+        for (_, shortest, _), count in zip(width.suitable_lengths, (3, width.return_rolls[0]), strict=True):
+            assert count * shortest > belt + 0.03  # half of what the series' narrowest sets reach beyond, 80 mm
+
+
+def test_a_design_on_rolls_of_other_lengths_is_calculated_with_those(tmp_path):
+    (tmp_path / "conveyor-library").mkdir()
+    inches = LIST.replace("133 mm, length: 315 mm", "133 mm, length: 12.6 in")
+    (tmp_path / "conveyor-library" / "parts.yaml").write_text(inches, encoding="utf-8")
+    path = tmp_path / "duty.yaml"
+    rules = "rules: {widths: [800 mm], drives: [head]}"
+    path.write_text(f"{DUTY}{rules}\nlisted: {{rolls: [R133-315, R133-950]}}\n", encoding="utf-8")
+    best = size_conveyor(read_duty(path), best=1).best
+    assert si(best.conveyor.idlers.carry.roll.length) == pytest.approx(12.6 * 0.0254)
+    assert best.choice.trough.width.three == pytest.approx(12.6 * 0.0254)
+    section = cross_section(usable_width(0.8), middle_roll_length=12.6 * 0.0254, trough_angle=best.choice.trough.angle,
+                            surcharge_angle=si(best.conveyor.material.surcharge_angle))  # fmt: skip
+    steep = math.asin(25.0 / 190.0)
+    area = section.on_slope(steep, surcharge_angle=si(best.conveyor.material.surcharge_angle))
+    assert best.choice.filling == pytest.approx(800.0 / 3.6 / 1600.0 / best.choice.speed / area)
 
 
 def test_a_belt_listed_by_its_rating_breaks_at_ten_times_it():
@@ -167,6 +223,8 @@ def test_a_belt_listed_by_its_rating_breaks_at_ten_times_it():
         ("{gearboxes: [G20-16]}", r"listed\.gearboxes: given without listed\.motors, whose speed"),
         ("{gearboxes: [old]}", r'listed\.gearboxes\[0\]: "old" has no gear_torque, which sizing needs'),
         ("{couplings: [C1000]}", r"listed\.couplings: given without listed\.motors"),
+        ("{brakes: [ED700]}", r"listed\.brakes: given without listed\.motors, whose speed brakes are chosen by"),
+        ("{motors: [M132], backstops: [HS600]}", r'listed\.motors\[0\]: "M132" has no motor_speed'),
         ("{motors: [M132], gearboxes: [G20-16]}", r'listed\.motors\[0\]: "M132" has no motor_speed'),
         ("{motors: [plain], gearboxes: [G20-16]}", r'listed\.motors\[0\]: "plain" has no inertia'),
         ("{pulleys: [narrow, bare]}", r'listed\.pulleys\[1\]: "bare" has no face_width'),
@@ -193,7 +251,9 @@ def test_lists_that_do_not_exist_are_named(tmp_path, monkeypatch):
 
 def test_where_no_item_fits_the_refusal_says_which_list(tmp_path):
     with pytest.raises(
-        NoSolutionError, match=r"no rolls .* diameters and lengths .* list further ones \(listed\.rolls\)"
+        NoSolutionError,
+        match=r"a belt of 800 mm needs rolls of one diameter, 315 mm \(291 mm to 339 mm\) long for carry sets, 950 mm "
+        r"\(875 mm to 1025 mm\) for return; the nearest listed, by diameter, are 108 mm: 315 mm: list further",
     ):
         size_conveyor(duty(tmp_path, "{rolls: [R108-315]}"))
 

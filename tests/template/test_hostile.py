@@ -90,7 +90,12 @@ def retype(path: Path, sheets: dict[str, Sheet], monkeypatch: pytest.MonkeyPatch
 CELLS: list[tuple[str, Any, Any, str]] = [
     ("belt.width", "1,2", "m", 'belt.width: got "1,2 m": a comma is ambiguous; write a decimal point'),
     ("belt.width", "1 200", "mm", "belt.width: got .* write the number without a thousands sign"),
-    ("belt.width", "1200 mm", "m", 'belt.width: got "1200 mm" beside the unit "m"; give the number alone'),
+    (
+        "belt.width",
+        "1200 mm",
+        "m",
+        'belt.width: got "1200 mm" beside the unit "m" of its cell or heading; give the number alone',
+    ),
     ("belt.width", 1200, None, 'belt.width: got 1200.* without a unit; give the unit, e.g. "1200'),
     ("belt.width", 1200, "kg", r'belt.width: got "1200 kg" \(a mass\), expected a length such as "1200 mm"'),
     ("belt.width", 12, "m", "belt.width: got 12 m, allowed: >= 0.1 m and <= 5 m"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ import conveyor
 from conveyor.errors import InputError
 from conveyor.files.libraries import flatten_fields
 from conveyor.forms.maker_list_reader import LIST_FORMS, add_maker_list, read_maker_list
+from conveyor.line.line import Line
 from conveyor.models.maker_lists import MAKER_KINDS
 from conveyor.pipeline import calculate
 from conveyor.report.tables.document_tables import identity_table
@@ -20,6 +22,7 @@ from conveyor.spec import dump
 from conveyor.starter.maker_list_form import write_maker_list_form
 from conveyor.units import si
 from tests.command_line import run
+from tests.template.test_hostile import edit
 
 SPECS = Path(__file__).parents[2] / "examples" / "specs"
 ITEMS: list[tuple[str, dict[str, Any]]] = [
@@ -33,6 +36,7 @@ ITEMS: list[tuple[str, dict[str, Any]]] = [
                 "inertia": 5.2, "efficiency": 96}),
     ("Gearboxes", {"name": "G20", "source": "list of Z, p. 19", "gear_ratio": 20.1, "efficiency": 97}),
     ("Backstops", {"name": "BS40", "source": "list of Z, p. 30", "backstop_torque": 40}),
+    ("Brakes", {"name": "ED 630", "source": "list of B, p. 2", "brake_torque": 1.2, "brake_shaft": "motor"}),
 ]  # fmt: skip
 
 
@@ -121,6 +125,21 @@ def test_what_the_spec_gives_goes_before_the_list(tmp_path):
     assert si(line.drive.efficiency) == pytest.approx(0.9)
 
 
+@pytest.mark.parametrize(
+    ("own", "force"),
+    [
+        ({}, 1200.0 * 20.1 / 0.5),  # 1.2 kN m at the motor's shaft, ratio 20.1, pulley of 1 m
+        ({"brake_force": "30 kN"}, 30e3),
+        ({"brake_torque": "60 kN*m"}, 60e3 / 0.5),  # at the pulley: the shaft of the list is not that of the spec's
+    ],
+)
+def test_a_brake_at_the_motors_shaft_acts_by_the_ratio(tmp_path, own, force):
+    add_maker_list(filled(tmp_path, ITEMS), tmp_path / "conveyor-library")
+    parts = ["M315", "G20", "BS40", "ED 630"]
+    line = Line.of(conveyor.load(spec_of(tmp_path, listed=parts, pulley_diameter="1 m", **own)))
+    assert line.drives[0].brake == pytest.approx(force)
+
+
 def test_added_again_it_replaces_its_items(tmp_path):
     folder = tmp_path / "conveyor-library"
     add_maker_list(filled(tmp_path, ITEMS), folder)
@@ -132,13 +151,29 @@ def test_added_again_it_replaces_its_items(tmp_path):
         add_maker_list(filled(tmp_path, heavier, "other.xlsx"), folder)
 
 
+def test_a_new_edition_under_another_name_is_one_line(tmp_path):
+    folder = tmp_path / "conveyor-library"
+    add_maker_list(filled(tmp_path, ITEMS), folder)
+    with pytest.raises(InputError) as refused:
+        add_maker_list(filled(tmp_path, ITEMS, "edition 2.xlsx"), folder)
+    (line,) = str(refused.value).splitlines()
+    assert f'{len(ITEMS)} items, roll "R-159-465" the first, are in {folder / "list.yaml"}, too' in line
+    assert line.endswith("conveyor library remove list")
+
+
 @pytest.mark.parametrize(
     ("sheet", "changes", "says"),
     [
         ("Rolls", {"diameter": None}, "Rolls!C2 diameter: is empty; every item has it: fill it in"),
         ("Rolls", {"diameter": "thick"}, 'Rolls!C2 diameter: expected a length such as "120 mm", got "thick mm"'),
         ("Rolls", {"diameter": -159}, "Rolls!C2 diameter: got -159 mm"),
-        ("Rolls", {"diameter": "=1+1"}, "Rolls!C2 diameter: a formula"),
+        ("Rolls", {"diameter": "=1+1"}, "Rolls!C2 diameter: a formula without a stored value"),
+        ("Rolls", {"diameter": "6 in"}, 'got "6 in" beside the unit "mm" of its cell or heading; give the'),
+        (
+            "Pulleys",
+            {"shaft_steel": "42CrMo4"},
+            'Pulleys!J2 shaft_steel: got "42CrMo4": of the steels of CEMA B105.1, whose strengths are used, C4140 is',
+        ),
         ("Rolls", {"source": None}, "Rolls!B2 source: is empty; every item has it: fill it in"),
         ("Rolls", {"name": "159x465"}, 'Rolls!A2 name: got "159x465", which the package\'s own library has'),
         ("Rolls", {"bearing.distance": None}, "bearing.distance: missing"),
@@ -148,6 +183,9 @@ def test_added_again_it_replaces_its_items(tmp_path):
         ("Belts", {"carcass.plies": "four"}, 'Belts!D2 carcass.plies: expected a whole number, got "four"'),
         ("Belts", {"carcass.kind": "steel cord"}, "Belts!D2 carcass.plies: got 4, but cords of steel (kind) are no"),
         ("Motors", {"efficiency": 105}, "Motors!F2 efficiency: got 105 %"),
+        ("Brakes", {"brake_torque": None}, "Brakes!C2 brake_force: is empty; every item has it or brake_torque"),
+        ("Brakes", {"brake_force": 10}, "Brakes!D2 brake_torque: got 1.2 kN*m beside brake_force 10 kN; give one of"),
+        ("Brakes", {"brake_torque": None, "brake_force": 10}, "brake_torque: missing: brake_shaft is given"),
     ],
 )
 def test_a_wrong_cell_is_refused_by_its_place(tmp_path, sheet, changes, says):
@@ -188,6 +226,29 @@ def test_units_of_the_heading_are_those_of_the_column(tmp_path):
     assert item.fields["diameter"] == "6.25 in"
 
 
+def test_of_a_formula_the_stored_value_is_read(tmp_path):
+    path = filled(tmp_path, [("Rolls", ITEMS[0][1] | {"diameter": "=150+9"})])
+    names = load_workbook(path).sheetnames
+    part = f"xl/worksheets/sheet{names.index('Rolls') + 1}.xml"
+    edit(path, part, lambda xml: re.sub(rb"<f>150\+9</f><v ?/>", b"<f>150+9</f><v>159</v>", xml))
+    (item,) = read_maker_list(path).items
+    assert item.fields["diameter"] == "159 mm"
+
+
+def test_the_form_explains_parts_of_a_drive_by_themselves(tmp_path):
+    rows = load_workbook(write_maker_list_form(tmp_path / "form.xlsx"))["Columns"].iter_rows(values_only=True)
+    said = {(row[0], row[1]): row[3:5] for row in rows}
+    assert said["Gearboxes", "efficiency"] == ("yes", "Of the gearbox alone, from its fast to its slow shaft.")
+    assert said["Brakes", "brake_torque"][0] == "or brake_force"
+
+
+def test_set_takes_a_list_as_in_yaml(tmp_path):
+    add_maker_list(filled(tmp_path, ITEMS), tmp_path / "conveyor-library")
+    done = run("power", spec_of(tmp_path), "--set", "drive.listed=[M 315, G20]", cwd=tmp_path)
+    assert '"M 315" is not in the library of' in done.stderr
+    assert 'did you mean "M315"' in done.stderr
+
+
 def test_an_unknown_name_says_what_there_is(tmp_path):
     add_maker_list(filled(tmp_path, ITEMS), tmp_path / "conveyor-library")
     with pytest.raises(InputError, match=r'drive\.listed\[0\]: "M351" is not in the library of .*did you mean "M315"'):
@@ -212,3 +273,19 @@ def test_the_commands(tmp_path, monkeypatch):
     personal = run("library", "add", "list.xlsx", "--personal", cwd=tmp_path)
     assert personal.returncode == 2
     assert "too; rename one" in personal.stderr
+    shown = run("library", "show", "list", "m315", cwd=tmp_path).stdout
+    assert "motor M315" in shown
+    assert [row.split(None, 1) for row in shown.splitlines()[1:]] == [
+        ["installed_power", "315 kW"], ["motor_speed", "1488 rpm"], ["inertia", "5.2 kg*m^2"], ["efficiency", "96 %"],
+        ["source", "list of Z, p. 9"],
+    ]  # fmt: skip
+    every = json.loads(run("library", "show", "list", "--json", cwd=tmp_path).stdout)
+    assert [item["name"] for item in every] == [values["name"] for _, values in ITEMS]
+    assert 'no item "M351"; did you mean "M315"?' in run("library", "show", "list", "M351", cwd=tmp_path).stderr
+    kept = tmp_path / "conveyor-library" / "list.yaml"
+    asked = run("library", "remove", "list", cwd=tmp_path)
+    assert (asked.returncode, kept.exists()) == (2, True)
+    assert "say --yes" in asked.stderr
+    assert "removed" in run("library", "remove", "list", "--yes", cwd=tmp_path).stdout
+    assert not kept.exists()
+    assert 'no list "list" is kept; there are: none' in run("library", "remove", "list", "--yes", cwd=tmp_path).stderr

@@ -210,6 +210,13 @@ def _unjudged_items(design: SizedDesign) -> Iterator[str]:
                 yield f"{part.item.one} {part.item.name}: {what} is not judged, its list has no {lacking}"
 
 
+def _widths_without_rolls(sizing: CalculatedSizing) -> Iterator[str]:
+    """Remark on belt widths that are not tried because lists have no rolls for them."""
+    lost = [format_figure(width, "size", sizing.duty.report.units) for width in sizing.task.widths_without_rolls]
+    if lost and sizing.duty.listed.items("rolls"):
+        yield f"no listed rolls are of one diameter and the lengths that belts of {' | '.join(lost)} need: not tried"
+
+
 def _belt_name(design: SizedDesign) -> str:
     return design.chosen.carcass.name
 
@@ -336,6 +343,7 @@ def _sizing_remarks(sizing: CalculatedSizing) -> Table:
         *_method_remarks(sizing),
         *(f"{count} calculated candidates are no designs: {why}" for why, count in sizing.refused.items()),
         *_missing_feeding(sizing),
+        *_widths_without_rolls(sizing),
         *dict.fromkeys(_unjudged_items(best)),
         *analysis_assumptions(best.conveyor),
     ]
