@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks.check import Check, Relation, check_against_limit
@@ -73,24 +74,27 @@ def splice_strength(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def belt_turnover(result: CalculatedConveyor) -> Iterator[Check]:
-    """Turnovers of a textile belt are as long as the rule of thumb asks; for steel cord none is known."""
+    """Turnovers are as long as the rule of thumb for textile belts asks; those of steel cord, longer, have none."""
     if not result.conveyor.route.turned_over:
         return
     key, subject, belt = "belt_turnover", message("length of the turnovers"), result.line.belt
-    least = None if belt.steel_cord else least_turnover_length(belt.width)
+    least = least_turnover_length(belt.width)
     length = result.conveyor.turnover_length
     if length is None:
-        shown, asked = message("turnover_length not given"), message("that of the belt's maker")
-        if least is not None:
-            asked = message("at least {} (rule of thumb)", (least, "length"))
-        yield Check(key, subject, None, least, "length", shown, asked, "not checked")
+        asked = message("at least {} (rule of thumb)", (least, "length"))
+        if belt.steel_cord:
+            asked = message("that of the belt's maker")
+        yield Check(key, subject, None, least, "length", message("turnover_length not given"), asked, "not checked")
         return
-    yield check_against_limit(
+    made = check_against_limit(
         key, subject, length, "at least", least, "length", source="rule of thumb",
-        missing="no rule for steel cord, ask the belt's maker",
         why="turnovers of {calculated} leave the middle of the belt too slack, {required} are usual (12 belt widths, "
         "rule of thumb): longer ones, or ask the belt's maker",
     )  # fmt: skip
+    if belt.steel_cord and not made.failed:
+        unknown = message("no rule for steel cord, ask the belt's maker")
+        made = replace(made, verdict="not checked", required=None, asked=unknown, why=None)
+    yield made
 
 
 def cover_thickness(result: CalculatedConveyor) -> Iterator[Check]:

@@ -21,10 +21,12 @@ def belt_filling(result: CalculatedConveyor) -> Iterator[Check]:
     if loaded:
         stretch, bulk, most = first_maximum(loaded, lambda one: -one[2] / one[1])
         shape = result.conveyor.idlers.carry.shape
-        level, held = skirted.get(stretch.section) or holds_on(0.0), "level cross-section"
+        whole, held = most, "level cross-section" if stretch.inclination == 0.0 else "cross-section on its slope"
         source = shape.filling_source
         if stretch.section in skirted:
             held, source = "cross-section between the skirts", "route.feeding.skirt_height"
+        elif shape.closed:
+            whole, held = result.conveyor.flooded_section, "pipe's cross-section"
         section = f'section "{escape_braces(stretch.section)}"'
         why = message(f"the bulk takes {{}}, {section} holds nothing on its slope", (bulk, "area"))
         if most > 0.0:
@@ -39,19 +41,24 @@ def belt_filling(result: CalculatedConveyor) -> Iterator[Check]:
             )  # fmt: skip
         yield check_against_limit(
             "filling", "filling of the belt", bulk, "at most", most, "area", source=source,
-            wording=message(f"{{}}, {percent(bulk / level)} of the {held}", (bulk, "area")),
+            wording=message(f"{{}}, {percent(bulk / whole)} of the {held}" if whole else "{}", (bulk, "area")),
             where=stretch.section, why=why,
         )  # fmt: skip
 
 
-def pipe_lumps(result: CalculatedConveyor) -> Iterator[Check]:
-    """The largest lump passes the pipe; none without its size."""
-    pipe, lump = result.conveyor.idlers.carry.pipe, result.line.lump
-    if pipe is not None and lump is not None:
+def bulk_slope(result: CalculatedConveyor) -> Iterator[Check]:
+    """The steepest loaded section is no steeper than the bulk is carried on."""
+    loaded = [stretch for stretch in result.line.stretches[: result.line.count] if stretch.bulk_mass > 0.0]
+    if loaded:
+        steepest = first_maximum(loaded, lambda stretch: abs(stretch.inclination))
+        most, source = result.conveyor.steepest_for_bulk, "material.max_slope"
+        if result.conveyor.material.max_slope is None:
+            source = result.conveyor.idlers.carry.shape.slope_source
         yield check_against_limit(
-            "pipe_lumps", "largest lump in the pipe", lump, "at most", pipe.largest_lump, "thickness",
-            source="idlers.carry.pipe.lump",
-            why="lumps of {calculated} jam in the pipe, {required} is allowed: crush finer, or a wider pipe",
+            "bulk_slope", "slope of the steepest loaded section", abs(steepest.inclination), "at most", most, "angle",
+            source=source, where=steepest.section,
+            why=f'section "{escape_braces(steepest.section)}" slopes by {{calculated}}, the bulk is carried on '
+            f"{{required}} at most ({source}): a longer route, or material.max_slope where the bulk bears more",
         )  # fmt: skip
 
 

@@ -9,12 +9,13 @@ from typing import Final
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks.check import Check, Relation, check_against_limit, pass_or_fail
+from conveyor.laws.drives import DRIVE_SPEED_TOLERANCE
 from conveyor.laws.motion import Stop
 from conveyor.line.line import Line
 from conveyor.loop.drive_duty import coasting_flywheel
 from conveyor.loop.equilibrium import DESIGN, LEAST
 from conveyor.loop.run_up import rated_force
-from conveyor.units.sentences import Message, escape_braces, message
+from conveyor.units.sentences import Message, escape_braces, message, percent
 
 _AT_MOST: Final[Relation] = "at most"
 
@@ -69,11 +70,15 @@ def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
     given = start.standstill if result.start_of_motors is None else result.start_of_motors
     rated = rated_force(result.line)
     torque = "" if rated is None else f"; {start.breakaway / rated:.2f} times the rated torque breaks it away"
-    yield check_against_limit(
+    made = check_against_limit(
         "breakaway", "starting force after standstill", given, "at least", start.breakaway, "force", where=where,
         why="the starting force of {calculated} does not overcome the resistance after standstill, up to {required}: "
         f"raise drive.start_factor or the motors' torque{torque}",
     )  # fmt: skip
+    if not made.failed and any(section.bed is not None for section in result.line.sections):
+        unknown = message("higher friction of the belt at rest on the plate not calculated")
+        made = replace(made, verdict="not checked", required=None, asked=unknown, why=None)
+    yield made
 
 
 def comes_to_rest(result: CalculatedConveyor) -> Iterator[Check]:
@@ -124,8 +129,9 @@ def holding_brake(result: CalculatedConveyor) -> Iterator[Check]:
         none = "torque of the backstop not given" if blind else none
         made = check_against_limit(
             "holding_brake", f"holding {what}, loaded belt", math.fsum((brakes, *bear)), "at least",
-            moving.brake_to_hold, "force", wording=None if known else message(none),
-            where=where, why=f"the loaded belt needs a {what} of {{required}} at the belt to stay at rest",
+            moving.brake_to_hold, "force", source=f"lift less {percent(line.least_friction)} of the friction",
+            wording=None if known else message(none), where=where,
+            why=f"the loaded belt needs a {what} of {{required}} at the belt to stay at rest",
         )  # fmt: skip
         yield made if known else replace(made, verdict="not checked")
     if moving.brake_to_stop is not None:
@@ -144,6 +150,24 @@ def _backstop_forces(line: Line) -> tuple[float, ...]:
         for part, radius in parts
         if part is not None and part.backstop is not None and radius is not None
     )
+
+
+def drive_speed(result: CalculatedConveyor) -> Iterator[Check]:
+    """Motor, gear and pulley of every drive move the belt at its speed; where the spec gives all three."""
+    speed = result.line.speed
+    for drive in result.line.drives:
+        parts = drive.parts
+        if parts is None or parts.rotation is None or parts.ratio is None or drive.radius is None:
+            continue
+        rim, name = 2.0 * math.pi * drive.radius * parts.rotation / parts.ratio, escape_braces(drive.name)
+        yield check_against_limit(
+            "drive_speed", f"belt speed by motor, gear and pulley, {name}", abs(rim / speed - 1.0), "at most",
+            DRIVE_SPEED_TOLERANCE, "share", wording=message("{}", (rim, "speed")),
+            asked=message(f"within {percent(DRIVE_SPEED_TOLERANCE)} of {{}} (general knowledge)", (speed, "speed")),
+            why=message(f'"{name}": motor_speed, gear_ratio {parts.ratio:g} and a pulley of {{}} move the belt at '
+                        "{}, belt.speed is {}: correct one of them (of a motor led by an inverter, motor_speed is that "
+                        "at belt.speed)", (2.0 * drive.radius, "length"), (rim, "speed"), (speed, "speed")),
+        )  # fmt: skip
 
 
 def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:

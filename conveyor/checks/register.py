@@ -18,7 +18,7 @@ from conveyor.checks.belt_checks import (
     cover_thickness,
     splice_strength,
 )
-from conveyor.checks.bulk_checks import belt_cleaning, belt_filling, bulk_slip, impact_load, pipe_lumps, skirtboards
+from conveyor.checks.bulk_checks import belt_cleaning, belt_filling, bulk_slip, bulk_slope, impact_load, skirtboards
 from conveyor.checks.check import Check
 from conveyor.checks.contact_checks import cover_penetration, rubber_coverage
 from conveyor.checks.curve_checks import belt_drift, curve_radius, horizontal_edges, pipe_curves, wind_lift
@@ -26,12 +26,14 @@ from conveyor.checks.drive_checks import (
     coasting_time,
     comes_to_rest,
     drive_parts,
+    drive_speed,
     holding_brake,
     motor_power,
     starting_force,
 )
 from conveyor.checks.feeder_checks import belt_feeder
 from conveyor.checks.idler_checks import belt_flap, roll_axle, roll_life, set_rating
+from conveyor.checks.pipe_checks import pipe_bearing, pipe_lap, pipe_lumps, pipe_rolls
 from conveyor.checks.pulley_checks import (
     belt_transitions,
     lagging_pressure,
@@ -74,12 +76,13 @@ _SECTION_CRITERIA: Final = frozenset({"curve_radius", "pipe_radius", "belt_drift
 
 
 CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
-    belt_filling, motor_power, take_up_tension, take_up_travel, drive_grip, belt_sag, slack_belt, belt_safety,
-    belt_rating,
+    belt_filling, bulk_slope, motor_power, take_up_tension, take_up_travel, drive_grip, belt_sag, slack_belt,
+    belt_safety, belt_rating,
     splice_strength, cover_thickness, belt_turnover, belt_temperature, pulley_diameter, curve_radius,
-    wind_lift, horizontal_edges, belt_drift, pipe_curves, belt_transitions, pipe_lumps, impact_load, skirtboards,
+    wind_lift, horizontal_edges, belt_drift, pipe_curves, belt_transitions, pipe_bearing, pipe_lap, pipe_lumps,
+    pipe_rolls, impact_load, skirtboards,
     belt_cleaning, belt_scales, belt_feeder, pulley_shaft,
-    pulley_bearings, lagging_pressure, starting_force, comes_to_rest, holding_brake, drive_parts, coasting_time,
-    bulk_slip, bed_speed,
+    pulley_bearings, lagging_pressure, starting_force, comes_to_rest, holding_brake, drive_parts, drive_speed,
+    coasting_time, bulk_slip, bed_speed,
     cover_penetration, roll_life, set_rating, roll_axle, belt_flap, rubber_coverage,
 )  # fmt: skip

@@ -74,15 +74,22 @@ def _trade_checks(line: Line, scale: WeighSection) -> Iterator[Check]:
     )  # fmt: skip
 
 
+def _tension_at(result: CalculatedConveyor, scale: WeighSection) -> float:
+    """Largest steady tension of the belt on the weigh idlers, linear along their section [N]."""
+    line, steady = result.line, result.balance.settled.steady
+    length, at = line.sections[scale.section].length, line.count + scale.section
+    start = math.fsum(section.length for section in line.sections[: scale.section])
+    low, high = float(steady.starts[at]), float(steady.ends[at])
+    return max(low + (high - low) * (place - start) / length for place in (scale.start, scale.end))
+
+
 def _alignment_checks(result: CalculatedConveyor, scale: WeighSection) -> Iterator[Check]:
     line = result.line
     stretch = line.stretches[scale.section]
     if scale.alignment is None or stretch.bulk_mass == 0.0:
         return
-    steady = result.balance.settled.steady
-    at = line.count + scale.section
     error = alignment_error(
-        max(float(steady.starts[at]), float(steady.ends[at]), 0.0), height=scale.alignment, spacing=scale.spacing,
+        max(_tension_at(result, scale), 0.0), height=scale.alignment, spacing=scale.spacing,
         n_sets=scale.n_sets, bulk_force=stretch.bulk_mass * line.gravity * math.cos(stretch.inclination),
     )  # fmt: skip
     name = escape_braces(scale.name)

@@ -22,6 +22,9 @@ BACKSTOP_SHARE_FACTOR: Final = Default(
 )  # [-]
 GEAR_SERVICE: Final = Default(1.5, 1.25, 1.75, "rated torque of a conveyor's gear over that of its motor", True)  # [-]
 DISC_HEAT: Final = Default(460.0, 450.0, 500.0, "specific heat of a steel brake disc", True)  # [J/(kg K)]
+DRIVE_SPEED_TOLERANCE: Final = 0.05
+"""By which motor, gear and pulley may miss the belt speed, over it; gear series step by 12 % (ISO 3, R20), so that the
+next ratio is at most 6 % off (general knowledge) [-]."""
 _R10: Final = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)  # ISO 3
 _R20: Final = (*_R10, 1.12, 1.4, 1.8, 2.24, 2.8, 3.55, 4.5, 5.6, 7.1, 9.0)  # ISO 3
 # NEMA MG 10, table 2-3, designs A and B: hp; starts an hour, starts an hour times load Wk² [lb ft²] at 2, 4, 6 poles

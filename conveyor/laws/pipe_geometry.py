@@ -17,6 +17,9 @@ PIPE_RADIUS: Final = {"textile": 300.0, "steel cord": 600.0}
 
 FORMING_LENGTH: Final = 55.0
 """Least way from the flat belt to the pipe over its diameter [-]; conveyorbeltguide.com/pipe-belts.html."""
+LEAST_LAP: Final = 0.1
+"""Least lap over the circumference of the carcass [-]: usual ones are 15 to 27 % (general knowledge); at less than this
+an empty pipe leaves a roll untouched, however stiff its belt, see `least_pipe_stiffness`."""
 FURTHEST_LAP: Final = 2.0
 """Width of the belt over the circumference of the pipe, below which it laps once [-]; geometry."""
 
@@ -85,6 +88,42 @@ def pipe_strip_distance(diameter: float, *, cover_thickness: float, carcass_thic
     require_positive(diameter=diameter)
     require_not_negative(cover_thickness=cover_thickness, carcass_thickness=carcass_thickness)
     return 0.5 * (diameter + carcass_thickness) + cover_thickness
+
+
+def pipe_roll_lengths(diameter: float, *, outer_radius: float, offset: bool) -> tuple[float, float]:
+    """Least and largest length of the six rolls of a panel, π D/6 and the side of the polygon round the pipe.
+
+    Parameters
+    ----------
+    diameter : float
+        D of the pipe inside the belt [m], positive.
+    outer_radius : float
+        r of the pipe outside of the belt [m], positive.
+    offset : bool
+        True where every other roll stands behind the panel, so that three meet in each plane.
+
+    Returns
+    -------
+    tuple of float
+        A sixth of the circumference, over which a roll bears in `pipe_roll_loads`; 2 r tan(30 deg), or 2 r tan(60 deg)
+        of three rolls in a plane [m].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Geometry; the diameter of the rolls, whose ends meet a little earlier, is left out.
+
+    Examples
+    --------
+    >>> [round(one, 3) for one in pipe_roll_lengths(0.38, outer_radius=0.208, offset=False)]
+    [0.199, 0.24]
+    """
+    require_positive(diameter=diameter, outer_radius=outer_radius)
+    return math.pi * diameter / 6.0, 2.0 * outer_radius * math.tan(math.pi / (3.0 if offset else 6.0))
 
 
 def forming_length(diameter: float) -> float:

@@ -31,8 +31,8 @@ def least_turnover_length(belt_width: float) -> float:
 
     Notes
     -----
-    A rule of thumb for textile belts. For steel-cord belts, and by the tension in the turnover, the belt's maker says
-    how long it is.
+    A rule of thumb for textile belts. Those of steel cord are longer; how much, and by the tension in the turnover, the
+    belt's maker says.
 
     Examples
     --------

@@ -12,6 +12,7 @@ from typing import Final
 
 from conveyor.arguments.limits import (
     require,
+    require_angle,
     require_not_negative,
     require_positive,
     require_slope,
@@ -212,6 +213,41 @@ def overstress_radius(
         f"> {tension_per_width:.6g} N/m, the mean",
     )
     return stiffness_per_width * distance / (allowed_per_width - tension_per_width)
+
+
+def cema_middle_below(belt_width: float, *, trough_angle: float) -> float:
+    """Distance of the middle of a belt below its centre by CEMA, B sin(λ)/9.
+
+    Parameters
+    ----------
+    belt_width : float
+        B [m], positive.
+    trough_angle : float
+        λ of three rolls [rad], from 0 to below pi/2.
+
+    Returns
+    -------
+    float
+        d [m], for CEMA's radius of a convex curve, r = B sin(λ) E/(9 (T/B - 30 lbf/in)), as commonly reproduced.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Exact where the three rolls bear a third of the belt each: wings of B/3 have their middle B sin(λ)/6 above the
+    middle roll, two thirds of which is the mean. Rolls longer than a third bear shorter wings, `trough_section`.
+
+    Examples
+    --------
+    >>> round(cema_middle_below(1.2, trough_angle=math.radians(35.0)), 4)
+    0.0765
+    """
+    require_positive(belt_width=belt_width)
+    require_angle(0.0, trough_angle=trough_angle)
+    return belt_width * math.sin(trough_angle) / 9.0
 
 
 def buckling_radius(

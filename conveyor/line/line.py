@@ -179,7 +179,7 @@ class Line:
             brake_delay=si(drive.brake_delay),
             stop_deceleration=si_or_none(drive.stop_deceleration),
             coast_time=si_or_none(drive.coast_time),
-            least_friction=si(drive.least_friction),
+            least_friction=conveyor.certain_friction,
             design_friction=si_or_default(drive.design_friction, 1.0),
             method=calculation.method,
             secondary=secondary_method(conveyor.calculation, conveyor.route.length),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from conveyor.laws.loading import (
@@ -27,8 +28,8 @@ class FormedPipe:
 
     Attributes
     ----------
-    diameter, carcass_radius : float
-        Inner diameter; radius to the carcass [m].
+    diameter, carcass_radius, outer_radius : float
+        Inner diameter; radius to the carcass and to the rolls [m].
     half_angle : float
         Half of the belt's width over the radius of its carcass [rad].
     spacing : float
@@ -37,14 +38,31 @@ class FormedPipe:
         Bending stiffness across the belt over its length [N m²/m].
     belt_weight : float
         Of the belt over its length [N/m].
+    roll_length : float
+        Of each roll [m].
+    offset : bool
+        True where every other roll stands behind the panel.
     """
 
     diameter: float
     carcass_radius: float
+    outer_radius: float
     half_angle: float
     spacing: float
     stiffness: float
     belt_weight: float
+    roll_length: float
+    offset: bool
+
+    @property
+    def circumference(self) -> float:
+        """Circumference of the carcass [m]."""
+        return 2.0 * math.pi * self.carcass_radius
+
+    @property
+    def lap(self) -> float:
+        """Width of the belt less the circumference of its carcass [m]."""
+        return 2.0 * self.half_angle * self.carcass_radius - self.circumference
 
     @property
     def forming_load(self) -> float:
@@ -74,7 +92,9 @@ class FormedPipe:
         else:
             raise TypeError(pipe)
         weight = belt.line_mass * si(conveyor.calculation.gravity)
-        return cls(si(pipe.diameter), radius, half_angle, spacing, stiffness, weight)
+        outer = radius + 0.5 * si(belt.carcass.thickness) + si(belt.bottom_cover.thickness)
+        length, offset = si(idlers.roll.length), si(idlers.offset) > 0.0
+        return cls(si(pipe.diameter), radius, outer, half_angle, spacing, stiffness, weight, length, offset)
 
 
 class SetLoads:

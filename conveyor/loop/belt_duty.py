@@ -29,6 +29,7 @@ from conveyor.laws.vertical_curve import (
     CEMA_LEAST_TENSION,
     TroughSection,
     cema_lift_off_radius,
+    cema_middle_below,
     lift_off_radius,
     trough_section,
 )
@@ -324,11 +325,15 @@ def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[C
 
 
 def _cema_buckling_radius(line: Line, stretch: Stretch, lowest: float) -> float | None:
-    """Least radius of a convex curve at which the middle keeps CEMA's tension [m]; infinite where none does."""
+    """Least radius of a convex curve at which the middle keeps CEMA's tension [m]; infinite where none does.
+
+    None without the belt's stiffness, and of other sets than those of three rolls or one, for which it is given.
+    """
     width, stiffness = line.belt.width, line.belt.tensile_stiffness
-    if stiffness is None:
+    if stiffness is None or stretch.idlers.rolls not in {1, 3}:
         return None
-    return taut_radius(lowest / width, trough_of_stretch(stretch, width).middle_below, stiffness, CEMA_LEAST_TENSION)
+    below = cema_middle_below(width, trough_angle=stretch.trough_angle)
+    return taut_radius(lowest / width, below, stiffness, CEMA_LEAST_TENSION)
 
 
 def _vertical_strips(line: Line, stretch: Stretch, section: RouteSection, lowest: float, highest: float) -> StripLimits:

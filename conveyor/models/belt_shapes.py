@@ -32,12 +32,18 @@ class BeltShape(Protocol):
         How bulk lies that fills it to the brim.
     larger : str
         What holds more.
+    steepest : float
+        Largest slope of bulk of which nothing else is known [rad].
+    slope_source : str
+        Where it is from.
     """
 
     closed: ClassVar[bool]
     filling_source: ClassVar[str]
     brim: ClassVar[str]
     larger: ClassVar[str]
+    steepest: ClassVar[float]
+    slope_source: ClassVar[str]
 
     def largest_section(self, width: float, surcharge: float) -> CrossSection:
         """Largest bulk cross-section of a level belt of a width [m] at a surcharge angle [rad]."""
@@ -88,6 +94,8 @@ class Trough:
     filling_source: ClassVar[str] = "ISO 5048"
     brim: ClassVar[str] = "heaped from edge to edge"
     larger: ClassVar[str] = "a wider belt"
+    steepest: ClassVar[float] = math.radians(18.0)
+    slope_source: ClassVar[str] = "most bulk on a smooth belt, general knowledge"
 
     def middle_belt(self, width: float) -> float:
         """Width of belt on the middle roll [m]: all of it on one roll, 0 without a middle roll."""
@@ -156,6 +164,8 @@ class Pipe(Model):
     filling_source: ClassVar[str] = "idlers.carry.pipe.filling"
     brim: ClassVar[str] = "filling the whole pipe"
     larger: ClassVar[str] = "a larger pipe"
+    steepest: ClassVar[float] = math.radians(27.0)
+    slope_source: ClassVar[str] = "sluggish bulk in a pipe, helixtech.com.au"
 
     def carcass_radius(self, cover: Quantity, carcass: Quantity) -> float:
         """Radius of the middle of the carcass, by its thickness and that of the cover inside [m]."""

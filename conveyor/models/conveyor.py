@@ -116,6 +116,12 @@ class Conveyor(ConveyorParts):
         return largest.on_slope(inclination, surcharge_angle=angle)
 
     @property
+    def steepest_for_bulk(self) -> float:
+        """Largest slope that the bulk is carried on [rad]: as given, else usual of trough or pipe."""
+        given = self.material.max_slope
+        return self.idlers.carry.shape.steepest if given is None else si(given)
+
+    @property
     def skirted_areas(self) -> dict[str, float]:
         """Bulk cross-sections of sections wholly between skirts of known height [m²], by name."""
         return skirted_areas(self)

@@ -39,6 +39,9 @@ from conveyor.units import (
 
 LEAST_FRICTION: Final = FRICTION_FACTOR_DOWNHILL.value / FRICTION_FACTOR.value
 """Friction relied on for braking over the computed one [-]: f downhill over f, general knowledge."""
+CEMA_LEAST_FRICTION: Final = 0.5
+"""The same of CEMA's Te, whose friction is meant to be enough for every motor [-]: a holdback bears the lift less half
+of the force that moves belt and load horizontally (Overland Conveyor, Belt Analyst knowledge base, Backstops, 2012)."""
 
 
 Shaft = Literal["pulley", "motor"]
@@ -89,7 +92,7 @@ class DrivePulley(Model):
     motors: Annotated[int, Field(ge=1, le=20, strict=True), AnyInteger] = 1
     """How many equal motors it has."""
     motor_speed: Annotated[Rotation, Bounds(gt="0 rpm", le="5000 rpm")] | None = None
-    """Rated speed of its motors, for ratio and torque of the gear."""
+    """Speed of its motors at belt.speed, for ratio and torque of the gear; with gear_ratio checked against it."""
     starts_per_hour: Annotated[Number, Field(gt=0, le=1000)] | None = None
     """Starts asked of motors that are switched on directly, checked against NEMA's table; needs motor_speed."""
     diameter_loss: Annotated[Length, Bounds(ge="0 mm", le="100 mm")] | None = None
@@ -224,8 +227,8 @@ class Drive(DrivePulley):
     """Deceleration wanted when the conveyor is stopped."""
     coast_time: Annotated[Time, Bounds(gt="0 s", le="1 h")] | None = None
     """Time wanted from full speed to rest without power and brakes; the flywheel it needs is shown."""
-    least_friction: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity(LEAST_FRICTION, "fraction")
-    """Friction that is certain where it helps to brake, over the computed one."""
+    least_friction: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
+    """Friction that is certain where it helps to brake, over the computed one; 60 % without it, by CEMA 50 %."""
     design_friction: Annotated[Fraction, Bounds(ge="100 %", le="500 %")] | None = None
     """Friction that motors, belt, grip and take-up are designed for, over the computed one; without it the upper end of
     the band of the defaults in use."""
@@ -246,11 +249,6 @@ class Drive(DrivePulley):
     def names(self) -> tuple[str, ...]:
         """Names of the drives, the first one first."""
         return ("drive", *(pulley.name for pulley in self.further_drives))
-
-    @property
-    def certain_friction(self) -> float:
-        """Friction relied on for braking over the computed one [-]."""
-        return si(self.least_friction)
 
     @property
     def mains_efficiency(self) -> float:

@@ -67,7 +67,8 @@ class IdlerSet(Model):
     drag: Annotated[Force, Bounds(ge="0 N", le="5 kN")] | None = None
     """Running drag of all rolls of one set at their rims, instead of that of each roll."""
     offset: Annotated[Length, Bounds(ge="0 m", le="2 m")] = quantity("0 m")
-    """Distance along the belt of the plane of the middle rolls from that of the outer ones; the loads stay."""
+    """Distance along the belt of the plane of the middle rolls from that of the outer ones, of every other roll of a
+    pipe; the loads stay."""
     tilt_angle: Annotated[Angle, Bounds(ge="0 deg", le="5 deg")] = quantity("0 deg")
     """Forward tilt of the outer rolls; not of a single roll."""
     misalignment: Annotated[Angle, Bounds(ge="0 deg", le="5 deg")] | None = None
@@ -261,7 +262,7 @@ class IdlerSet(Model):
         if self.share_rule != "VDI 2341" and self.load_shares is not None:
             message = f'got "{self.share_rule}" beside load_shares; give one of the two, remove the other'
             problems.append(Problem(("share_rule",), message))
-        if si(self.offset) > 0.0 and self.rolls not in {3, 5}:
+        if si(self.offset) > 0.0 and self.rolls not in {3, 5, 6}:
             message = f"got {text(self.offset)}, but rolls: {self.rolls} has no middle ones; remove it"
             problems.append(Problem(("offset",), message))
         elif si(self.offset) >= si(self.spacing):

@@ -30,6 +30,9 @@ class BulkMaterial(LibraryItem):
     """Slope of the moving heap."""
     surcharge_convention: Literal["ISO 5048", "DIN 22101"] = "ISO 5048"
     """ISO 5048: of a parabola at its edge, θ; DIN 22101: of a triangle of the same area, tan β = 2/3 tan θ."""
+    max_slope: Annotated[Angle, Bounds(gt="0 deg", le="45 deg")] | None = None
+    """Steepest section it is carried on, up or down, as CEMA's recommended maximum inclination; 18 deg without it, in a
+    pipe 27 deg."""
     listed: EntryName | None = None
     """Entry of the library of materials that gives what is not given here."""
 

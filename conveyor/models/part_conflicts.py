@@ -16,6 +16,7 @@ from conveyor.models.base import Problem
 from conveyor.models.belt import Cover, TopCover
 from conveyor.models.belt_shapes import OVERFILL_LIMIT
 from conveyor.models.bulk_sections import skirted_areas
+from conveyor.models.calculation_methods import FACTOR_METHODS
 from conveyor.models.drive import DrivePulley
 from conveyor.models.driven_pulleys import driven_pulleys
 from conveyor.models.feeder_conflicts import hopper_problems, located_feeding
@@ -328,7 +329,7 @@ def _curve_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """Refuse a pipe that the belt cannot close or laps twice, one on the return strand alone, and banking of pipes."""
+    """Refuse a pipe without closing belt or own f, one on the return strand alone, and banking of pipes."""
     carry, back = conveyor.idlers.carry.pipe, conveyor.idlers.return_.pipe
     if back is not None and (carry is None or si(carry.diameter) != si(back.diameter)):
         beside = "the carry strand is none" if carry is None else f"the carry strand's is {text(carry.diameter)}"
@@ -337,6 +338,13 @@ def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     if carry is None:
         return
     yield from _forming_problems(conveyor)
+    calculation = conveyor.calculation
+    if calculation.method in FACTOR_METHODS and "friction_factor" not in calculation.model_fields_set:
+        message = (
+            f'missing: method "{calculation.method}" takes f of a trough where none is given, without what forms the '
+            "pipe: give that of pipe conveyors, or take method viscoelastic"
+        )
+        yield Problem(("calculation", "friction_factor"), message)
     belt = conveyor.belt
     if 2.0 * math.pi * carry.carcass_radius(belt.top_cover.thickness, belt.carcass.thickness) > si(belt.width):
         message = (
@@ -350,6 +358,9 @@ def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             "twice: take a larger pipe or a narrower belt"
         )
         yield Problem(("idlers", "carry", "pipe", "diameter"), message)
+    if back is not None and conveyor.route.turned_over:
+        message = "got true, but the return strand is a pipe too, whose rolls run on the bottom cover anyway: remove it"
+        yield Problem(("route", "turned_over"), message)
     why = "given, but a pipe (idlers.carry.pipe)"
     for i, section in enumerate(conveyor.route.sections):
         for name in ("carry_banking", "carry_skew", *(() if back is None else ("return_banking", "return_skew"))):
@@ -473,6 +484,6 @@ CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str
     _curve_problems: ("idlers", "route"),
     _bed_problems: ("calculation", "route"),
     _belt_on_bed_problems: ("belt", "idlers", "route"),
-    _pipe_problems: ("belt", "idlers", "route"),
+    _pipe_problems: ("belt", "calculation", "idlers", "route"),
 }
 """Checks between the parts, and the parts that each check reads."""

@@ -12,7 +12,7 @@ from conveyor.models.base import AnyInteger, Model, Name, Number, Problem, raise
 from conveyor.models.belt import Belt
 from conveyor.models.calculation_methods import Calibration, Cema, Flexure, FrictionFactor, Method
 from conveyor.models.compound import RubberCompound
-from conveyor.models.drive import Drive
+from conveyor.models.drive import CEMA_LEAST_FRICTION, LEAST_FRICTION, Drive
 from conveyor.models.idlers import Idlers
 from conveyor.models.material import BulkMaterial
 from conveyor.models.operation import DutyEntry, EarthTemperature, Operation
@@ -169,6 +169,13 @@ class ConveyorParts(Model):
     def belt_speed(self) -> float:
         """Belt speed [m/s]."""
         return si(self.belt.speed)
+
+    @property
+    def certain_friction(self) -> float:
+        """Friction relied on for braking over the computed one [-]: as given, else usual of the method."""
+        given, cema = self.drive.least_friction, self.calculation.method == "cema classic"
+        usual = CEMA_LEAST_FRICTION if cema else LEAST_FRICTION
+        return usual if given is None else si(given)
 
     @property
     def air_temperature(self) -> float:

@@ -13,9 +13,8 @@ from conveyor.errors import InputError
 from conveyor.laws.preliminary_sizing import carcass_mass
 from conveyor.laws.resistance import roll_rotation
 from conveyor.models.conveyor import Conveyor
-from conveyor.models.part_conflicts import drive_diameter
 from conveyor.units import si, text, unit_system
-from conveyor.units.sentences import Message, escape_braces, message, percent
+from conveyor.units.sentences import Message, message, percent
 from conveyor.units.unit_systems import trade_of
 
 HEAVIEST_BULK: Final = 5000.0
@@ -26,8 +25,6 @@ WIDEST_SET: Final = 1.5
 """Rolls of a set side by side over the belt's width [-]; at most 1.25 in the lists after ISO 1537 and DIN 22107."""
 POOREST_DRIVE: Final = 0.5
 """Efficiency from motor to belt [-]; that of a worm gear."""
-DRIVE_SPEED_TOLERANCE: Final = 0.05
-"""By which motor, gear and pulley may miss the belt speed: that of sizing (`rules.speed_tolerance`) [-]."""
 HEAVIEST_ROLL: Final = 0.5
 """Rotating mass of a roll over that of a solid steel one of its size [-]; of shells in lists 0.15 to 0.3."""
 _STEEL: Final = 7850.0  # [kg/m³]
@@ -45,23 +42,6 @@ def implausible_inputs(conveyor: Conveyor) -> Iterator[Message]:
     if efficiency < POOREST_DRIVE:
         lost = percent(1.0 - efficiency)
         yield message(f"drive.efficiency {text(conveyor.drive.efficiency)}: {lost} of the power is lost; look again")
-    yield from _check_drive_speeds(conveyor)
-
-
-def _check_drive_speeds(conveyor: Conveyor) -> Iterator[Message]:
-    """Motor, gear and pulley of a drive that turn at another speed than the belt's."""
-    for name, drive in zip(conveyor.drive.names, conveyor.drive.pulleys, strict=True):
-        diameter = drive_diameter(conveyor, drive)
-        if drive.motor_speed is None or drive.gear_ratio is None or diameter is None:
-            continue
-        rim = math.pi * si(diameter) * si(drive.motor_speed) / drive.gear_ratio
-        if abs(rim / si(conveyor.belt.speed) - 1.0) > DRIVE_SPEED_TOLERANCE:
-            yield message(
-                f'"{escape_braces(name)}": motor_speed {text(drive.motor_speed)}, gear_ratio {drive.gear_ratio:g} and '
-                f"a pulley of {text(diameter)} move the belt at {{}}, belt.speed is {text(conveyor.belt.speed)}: "
-                "correct one of them",
-                (rim, "speed"),
-            )
 
 
 def _check_flow(conveyor: Conveyor) -> Iterator[Message]:

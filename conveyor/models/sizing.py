@@ -10,7 +10,7 @@ from typing import Annotated, Any, Final, Literal, Self
 from pydantic import Field, model_validator
 
 from conveyor.files import libraries
-from conveyor.laws.drives import GEAR_SERVICE
+from conveyor.laws.drives import DRIVE_SPEED_TOLERANCE, GEAR_SERVICE
 from conveyor.laws.idler_sets import CemaClass
 from conveyor.laws.preliminary_sizing import Severity
 from conveyor.laws.resistance import Site
@@ -203,7 +203,7 @@ class SiteRules(Model):
     """Rated torque of listed gearboxes and couplings over that of their motor."""
     face_allowance: Annotated[Length, Bounds(gt="0 mm", le="1 m")] | None = None
     """How much wider than the belt listed pulleys are at least; without it 100 mm, in the US series 2 in."""
-    speed_tolerance: Annotated[Fraction, Bounds(gt="0 %", le="10 %")] = quantity("5 %")
+    speed_tolerance: Annotated[Fraction, Bounds(gt="0 %", le="10 %")] = quantity(f"{100.0 * DRIVE_SPEED_TOLERANCE:g} %")
     """How far listed gearboxes may take the belt from a speed to choose from; the design has the speed they give."""
     basis: Method = "viscoelastic"
     """Method by which the motors have to suffice, beside the friction to design for of calculation.method."""

@@ -113,7 +113,7 @@ def _wind_assumption(conveyor: Conveyor) -> Iterator[str]:
 
 def method_summary(result: CalculatedConveyor) -> tuple[str, ...]:
     """Method of calculation, for readers of the report alone."""
-    least = percent(result.conveyor.drive.certain_friction)
+    least = percent(result.conveyor.certain_friction)
     return (
         *_resistance_method(result),
         "Tensions: all forces are summed round the loop in steady running, starting and stopping; the take-up is set "

@@ -17,8 +17,8 @@ from conveyor.laws.resistance import (
     SERVICE_DRAG,
     SITE_SAG,
 )
+from conveyor.laws.resistance.cema import DRIVE_PULLEY_FRICTION
 from conveyor.line.roll_drags import acceptance_limit, assumed_bearing, bearing_viscosity
-from conveyor.line.set_loads import FormedPipe
 from conveyor.loop.belt_limits import allowed_tension
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.calculation_methods import METHOD_NAMES
@@ -212,23 +212,12 @@ def _set_warnings(result: CalculatedConveyor) -> Iterator[Message]:
 
 
 def _pipe_warnings(conveyor: Conveyor) -> Iterator[Message]:
-    """A belt too soft to bear on all six rolls, one whose lap keeps it from a roll, and factors of other belts."""
-    pipe, method = FormedPipe.of(conveyor, conveyor.idlers.carry), conveyor.calculation.method
-    if pipe is None:
-        return
-    if method != "viscoelastic":
+    """Factors of other belts by which a pipe is calculated."""
+    method = conveyor.calculation.method
+    if conveyor.idlers.carry.pipe is not None and method != "viscoelastic":
         yield message(
             f"idlers.carry.pipe: usual factors of {METHOD_NAMES[method]} are those of troughed belts, without what "
             "forms the pipe; give factors of pipe conveyors"
-        )
-    if pipe.least_stiffness is None:
-        yield message("idlers.carry.pipe: with this lap the empty pipe leaves a roll untouched, however stiff the belt")
-    elif pipe.stiffness < pipe.least_stiffness:
-        yield message(
-            "idlers.carry.pipe: the empty pipe bears on all six rolls from a stiffness across the belt of {}, "
-            "here it is {}: a softer belt may not keep its form",
-            (pipe.least_stiffness, "moment"),
-            (pipe.stiffness, "moment"),
         )
 
 
@@ -270,5 +259,11 @@ def _other_warnings(conveyor: Conveyor) -> Iterator[Message]:
             "CEMA classic form: formulas and figures as commonly reproduced, Ky, Kt, Ai, Cs by the spec"
             + ("" if _has_section_flexure(conveyor) else ", one Ky for the whole conveyor")
         )
+        if "drive_pulley_friction" not in conveyor.calculation.cema.model_fields_set:
+            yield message(
+                "calculation.cema.drive_pulley_friction not given: none in the motor power, CEMA has {} for a drive "
+                "pulley",
+                (DRIVE_PULLEY_FRICTION, "force"),
+            )
         if conveyor.route.feeding is not None and conveyor.calculation.cema.skirt_factor is None:
             yield message("calculation.cema.skirt_factor not given: of the skirts only the seals are in CEMA's figures")

@@ -270,10 +270,13 @@ def _size_warnings(result: CalculatedConveyor) -> Iterator[Message]:
 def _drive_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     drive, balance = result.conveyor.drive, result.balance
     if balance.settled.least_force < 0.0:
-        given = "least_friction" in drive.model_fields_set
-        source = "" if given else ", general knowledge: f 0.012 downhill over 0.020"
+        source = ", general knowledge: f 0.012 downhill over 0.020"
+        if drive.least_friction is not None:
+            source = ""
+        elif result.line.method == "cema classic":
+            source = ", half of it: Overland Conveyor, Belt Analyst"
         yield message(
-            f"drive force {{}} at {percent(drive.certain_friction)} of the calculated friction, the least "
+            f"drive force {{}} at {percent(result.line.least_friction)} of the calculated friction, the least "
             f"(drive.least_friction{source}), {{}} at all of it; grip and brakes are checked at the least",
             (balance.settled.least_force, "force"),
             (balance.forces.total, "force"),

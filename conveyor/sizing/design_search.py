@@ -22,7 +22,7 @@ from conveyor.line.stretches import STRANDS
 from conveyor.models.sizing import SizingDuty
 from conveyor.pipeline import ProgressCallback
 from conveyor.sizing.design_choice import DesignChoice, SelectedParts
-from conveyor.sizing.duty_refusal import refuse_duty
+from conveyor.sizing.duty_refusal import refuse_duty, refuse_slope
 from conveyor.sizing.part_sizing import LIMIT_MESSAGES, calculate_specs, candidate_specs, foresee_parts, size_parts
 from conveyor.sizing.screen import (
     Candidates,
@@ -139,9 +139,11 @@ def size_conveyor(duty: SizingDuty, *, best: int = 3, progress: ProgressCallback
     Raises
     ------
     NoSolutionError
-        No candidate keeps the rules; the message gives the limit of the nearest one, with figures and the remedy.
+        A section is too steep for the bulk, or no candidate keeps the rules; then with the limit of the nearest one,
+        figures and the remedy.
     """
     task = SizingTask(duty)
+    refuse_slope(task)
     every = Candidates.of(task)
     if not len(every):
         refuse_duty(task)

@@ -8,12 +8,31 @@ from typing import NoReturn
 
 from conveyor.errors import NoSolutionError
 from conveyor.laws.preliminary_sizing import least_width_for_lumps, standard_edge_distance
+from conveyor.models.belt_shapes import Trough
 from conveyor.models.sizing import within_limit
 from conveyor.sizing.design_choice import WidthSize
 from conveyor.sizing.sizing_task import SizingTask
 from conveyor.units import from_si, text
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import percent
+
+
+def refuse_slope(task: SizingTask) -> None:
+    """Refuse a route steeper than the bulk is carried on.
+
+    Raises
+    ------
+    NoSolutionError
+        A section is too steep.
+    """
+    if not within_limit(task.steepest, task.steepest_for_bulk):
+        system = task.duty.report.units
+        slope, asked = (format_figure(each, "angle", system) for each in (task.steepest, task.steepest_for_bulk))
+        source = Trough.slope_source if task.duty.material.max_slope is None else "material.max_slope"
+        raise NoSolutionError(
+            f"route: a section slopes by {slope}, the bulk is carried on {asked} at most ({source}): a longer route, "
+            "or material.max_slope where the bulk bears more"
+        )
 
 
 def refuse_duty(task: SizingTask) -> NoReturn:

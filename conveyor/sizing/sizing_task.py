@@ -30,6 +30,7 @@ from conveyor.line.optional_quantities import si_or_none
 from conveyor.line.usual_parts import usual_lump_factor
 from conveyor.models import Conveyor
 from conveyor.models.base import given_data
+from conveyor.models.belt_shapes import Trough
 from conveyor.models.maker_lists import ListedItem
 from conveyor.models.sizing import (
     CarcassRow,
@@ -98,6 +99,12 @@ class SizingTask:
     def steepest(self) -> float:
         """Inclination of the steepest section, up or down [rad]."""
         return max(abs(math.asin(rise / length)) for length, rise in self.sections)
+
+    @property
+    def steepest_for_bulk(self) -> float:
+        """Largest slope that the bulk is carried on [rad]."""
+        given = self.duty.material.max_slope
+        return Trough.steepest if given is None else si(given)
 
     @property
     def length(self) -> float:

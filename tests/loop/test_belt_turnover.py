@@ -11,6 +11,7 @@ from conveyor.errors import InputError
 from conveyor.models.fields import with_fields
 from conveyor.pipeline import calculate
 from conveyor.spec import load
+from conveyor.units import si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 TURNED = {"route.turned_over": True}
@@ -45,6 +46,8 @@ def test_no_rule_is_known_for_steel_cord():
     check = turnover(steel)
     assert (check.verdict, check.calculated) == ("not checked", 26.0)
     assert check.asked.text() == "no rule for steel cord, ask the belt's maker"
+    short = turnover(steel, **{"route.turnover_length": "2 m"})
+    assert (short.verdict, short.required) == ("FAIL", pytest.approx(12 * si(steel.belt.width), rel=1e-12))
     bare = with_fields(steel, {"route.turnover_length": None})
     (check,) = belt_turnover(calculate(bare))
     assert check.asked.text() == "that of the belt's maker"

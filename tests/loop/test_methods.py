@@ -13,12 +13,14 @@ import pytest
 import conveyor
 from conveyor.calculated_conveyor import Variant
 from conveyor.checks import run_checks
+from conveyor.checks.drive_checks import holding_brake
 from conveyor.dynamics.simulation import simulate_scenarios
 from conveyor.errors import InputError
 from conveyor.models import Scenario
 from conveyor.models.calculation_methods import METHOD_NAMES
 from conveyor.models.variants import with_case
 from conveyor.pipeline import calculate, calculate_many
+from conveyor.remarks.part_warnings import part_warnings
 from conveyor.results.analysis import analyse_studies
 from conveyor.studies.loads import every_load
 
@@ -158,6 +160,30 @@ def test_bearings_of_drive_pulleys_are_in_the_motor_power_and_not_in_te():
     assert math.fsum(checks) == pytest.approx(power, rel=1e-9)
     beside = calculate(by("overland", "viscoelastic", cema=CEMA | {"drive_pulley_friction": "5 kN"}))
     assert beside.line.drive_bearings == 0.0
+
+
+def test_bearings_of_drive_pulleys_that_are_not_given_are_told():
+    def told(line):
+        return [one.text("US") for one in part_warnings(calculate(line)) if "drive_pulley_friction" in one.text()]
+
+    (words,) = told(by("in_plant_us", "cema classic", cema=CEMA))
+    assert "none in the motor power, CEMA has 200 lbf for a drive pulley" in words
+    assert told(by("in_plant_us", "cema classic", cema=CEMA | {"drive_pulley_friction": "0 N"})) == []
+
+
+def test_a_holdback_bears_the_lift_less_half_of_cemas_friction():
+    """By hand: half of what Te is above the lift; of other methods 60 %, and what the spec says before both."""
+    by_cema = by("in_plant_us", "cema classic", cema=CEMA)
+    made = calculate(by_cema)
+    forces = made.balance.forces
+    (inertia,) = (f.total for f in made.balance.singles if f.key == "Tam")  # a belt at rest has none
+    half = forces.lift - 0.5 * (forces.total - forces.lift - inertia)
+    assert made.motions.brake_to_hold == pytest.approx(half, rel=1e-9)
+    assert by("in_plant_us", "din 22101").certain_friction == pytest.approx(0.6)
+    given = by_cema.replace(drive=by_cema.drive.replace(least_friction="40 %"))
+    assert given.certain_friction == pytest.approx(0.4)
+    (check,) = (one for one in holding_brake(made) if one.key == "holding_brake")
+    assert "(lift less 50 % of the friction)" in check.asked.text("US")
 
 
 def test_seals_of_a_loading_point_are_those_the_spec_gives():

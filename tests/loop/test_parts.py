@@ -8,14 +8,17 @@ import pytest
 
 from conveyor.calculated_conveyor import common_take_up_duty
 from conveyor.checks.belt_checks import belt_temperature, cover_thickness, splice_strength
-from conveyor.checks.drive_checks import coasting_time, drive_parts
+from conveyor.checks.drive_checks import coasting_time, drive_parts, drive_speed
 from conveyor.checks.idler_checks import belt_flap, roll_axle, set_rating
 from conveyor.checks.tension_checks import take_up_travel
 from conveyor.errors import InputError
 from conveyor.laws.drives import HORSEPOWER
 from conveyor.laws.take_up import SCREW_LENGTH
 from conveyor.report.tables import drive_tables
+from conveyor.spec import from_data
+from conveyor.studies.load_cases import analyse_cases
 from conveyor.studies.loads import design_loads
+from conveyor.units.sentences import message
 from tests.loop.loop_lines import DATA, SECOND
 from tests.loop.test_pulley_duty import calculated
 
@@ -47,6 +50,27 @@ def test_a_conveyor_that_asks_for_nothing_has_nothing():
         drive_parts, coasting_time,
     ):  # fmt: skip
         assert list(criterion(plain)) == []
+
+
+@pytest.mark.parametrize(("ratio", "verdict"), [(19.38, "pass"), (18.47, "pass"), (18.45, "FAIL"), (30.0, "FAIL")])
+def test_motor_gear_and_pulley_move_the_belt_at_its_speed(ratio, verdict):
+    """By hand: 1480 rpm through 19.38 on 1 m are 4.0 m/s, 18.456 are 5 % more."""
+    parts = PARTS | {"gear_ratio": ratio, "inertia": "5 kg*m^2", "reduced_mass": None}
+    check = only(drive_speed(calculated(drive=DATA["drive"] | parts)))
+    rim = math.pi * 1480.0 / 60.0 / ratio
+    assert check.calculated == pytest.approx(abs(rim / 4.0 - 1.0), rel=1e-9)
+    assert check.verdict == verdict
+    assert check.found.text() == message("{}", (rim, "speed")).text()
+    assert "fpm" in check.asked.text("US")
+
+
+def test_a_load_case_of_another_speed_is_led_by_an_inverter():
+    parts = PARTS | {"gear_ratio": 19.38, "inertia": "5 kg*m^2", "reduced_mass": None}
+    slow = [{"name": "slow", "loading": "empty", "speeds": ["2 m/s"]}]
+    made = analyse_cases(from_data(DATA | {"drive": DATA["drive"] | parts, "cases": slow}))
+    (case,) = made.results
+    assert "drive_speed" not in {check.key for check in case.checks}
+    assert only(drive_speed(case.found)).verdict == "FAIL"
 
 
 def test_the_load_of_a_set_is_belt_lumps_and_a_raised_set():

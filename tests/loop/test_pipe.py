@@ -7,7 +7,8 @@ import math
 import pytest
 
 import conveyor
-from conveyor.checks.bulk_checks import belt_filling, pipe_lumps
+from conveyor.checks.bulk_checks import belt_filling
+from conveyor.checks.pipe_checks import pipe_bearing, pipe_lap, pipe_lumps, pipe_rolls
 from conveyor.errors import InputError
 from conveyor.laws.loading import PIPE_ROLLS, pipe_area, pipe_forming_load, pipe_roll_loads
 from conveyor.laws.loading.pipe_strip import _lapped_forces
@@ -81,11 +82,50 @@ def test_a_belt_too_soft_for_its_pipe_is_told(spec):
     for share, all_bear in ((1.01, True), (0.9, False)):
         forces = _lapped_forces(0.73 / radius, share * least * 1.2 / radius**2, (0.0, -weight), 0.0, 0.5)
         assert (min(forces) > 0.0) is all_bear
-    for stiffness, told in (("8.3 N*m", False), ("7 N*m", True)):
-        found = part_warnings(calculate(with_fields(spec, {"belt.transverse_stiffness": stiffness})))
-        assert any("bears on all six rolls from" in line.text() for line in found) is told
-    narrow = part_warnings(calculate(with_fields(spec, {"belt.width": "1300 mm"})))
-    assert any("leaves a roll untouched" in line.text() for line in narrow)
+    for stiffness, verdict in (("8.3 N*m", "pass"), ("7 N*m", "FAIL")):
+        (check,) = pipe_bearing(calculate(with_fields(spec, {"belt.transverse_stiffness": stiffness})))
+        assert (check.verdict, check.required) == (verdict, pytest.approx(least, rel=1e-9))
+    (narrow,) = pipe_bearing(calculate(with_fields(spec, {"belt.width": "1300 mm"})))
+    assert narrow.verdict == "FAIL"
+    assert "however stiff the belt" in narrow.why.text()
+
+
+def test_a_pipe_laps_by_a_tenth_of_its_circumference(spec):
+    """By hand: 1300 mm less 2 pi 200.5 mm are 40 mm, 3.2 %; 1386 mm just lap by a tenth, 1385 mm do not."""
+    around = 2.0 * math.pi * 0.2005
+    for width, verdict in ((1.3, "FAIL"), (1.385, "FAIL"), (1.386, "pass"), (1.46, "pass")):
+        (check,) = pipe_lap(calculate(with_fields(spec, {"belt.width": f"{width} m"})))
+        assert check.calculated == pytest.approx(width - around, rel=1e-9)
+        assert check.required == pytest.approx(0.1 * around, rel=1e-9)
+        assert check.verdict == verdict
+    (check,) = pipe_lap(calculate(with_fields(spec, {"belt.width": "1.3 m"})))
+    assert check.found.text() == "40.2 mm, 3 % of the circumference"
+    assert check.found.text("US").startswith("1.58 in")
+
+
+def test_rolls_are_as_long_as_a_sixth_and_no_longer_than_the_hexagon(spec):
+    """By hand: 380 pi/6 = 199 mm; outside 380 + 2 (8 + 5 + 5) = 416 mm, of which tan(30 deg) is 240 mm."""
+
+    def made(**changes):
+        found = pipe_rolls(calculate(with_fields(spec, changes)))
+        return {(check.key, check.subject.words.split(", ")[1]): check for check in found}
+
+    checks = made()
+    assert checks["pipe_roll_shortest", "carry"].required == pytest.approx(0.38 * math.pi / 6.0, rel=1e-9)
+    assert checks["pipe_roll_longest", "return"].required == pytest.approx(0.416 * math.tan(math.pi / 6.0), rel=1e-9)
+    assert {check.verdict for check in checks.values()} == {"pass"}
+    short = made(**{"idlers.carry.roll.length": "100 mm"})
+    assert [key for key, check in short.items() if check.failed] == [("pipe_roll_shortest", "carry")]
+    long = {"idlers.return.roll.length": "600 mm"}
+    assert [key for key, check in made(**long).items() if check.failed] == [("pipe_roll_longest", "return")]
+    behind = made(**long, **{"idlers.return.offset": "300 mm"})["pipe_roll_longest", "return"]
+    assert behind.required == pytest.approx(0.416 * math.tan(math.pi / 3.0), rel=1e-9)
+    assert behind.verdict == "pass"
+
+
+def test_a_pipe_is_not_turned_over(spec):
+    with pytest.raises(InputError, match=r"route\.turned_over: got true, but the return strand is a pipe too"):
+        with_fields(spec, {"route.turned_over": True})
 
 
 @pytest.mark.parametrize("method", ["din 22101", "iso 5048"])
@@ -93,7 +133,9 @@ def test_factors_of_troughed_belts_are_named_for_a_pipe(spec, method):
     def told(line):
         return [one.text() for one in part_warnings(calculate(line)) if "troughed belts" in one.text()]
 
-    (words,) = told(with_fields(spec, {"calculation.method": method}))
+    with pytest.raises(InputError, match=r"calculation\.friction_factor: missing: .* f of a trough"):
+        with_fields(spec, {"calculation.method": method})
+    (words,) = told(with_fields(spec, {"calculation.method": method, "calculation.friction_factor": 0.04}))
     assert "give factors of pipe conveyors" in words
     assert told(spec) == []
 
@@ -185,7 +227,8 @@ def test_the_command_reports_it(tmp_path):
     assert code == 0, err
     assert "FAIL" not in out
     assert "idlers.carry.pipe.filling" in out
-    assert "around a pipe of 380 mm, forming load 259 N a roll" in (tmp_path / "pipe.html").read_text(encoding="utf-8")
+    words = "around a pipe of 380 mm, lap 200 mm (16 %), forming load 259 N a roll"
+    assert words in (tmp_path / "pipe.html").read_text(encoding="utf-8")
 
 
 def test_a_flooded_pipe_is_full_and_no_more(spec):

@@ -38,10 +38,6 @@ def test_nothing_is_asked_about_examples_and_published_conveyors(path):
         ({"belt.mass": "16 lb/ft"}, "belt.mass leaves 0.261 lb/ft² for the carcass of"),
         ({"belt.mass": "24 lb/ft"}, "is it per area or per length"),
         (
-            {"drive.motor_speed": "1785 rpm", "drive.gear_ratio": 25, "drive.inertia": "5 kg*m^2"},
-            '"drive": motor_speed 1785 rpm, gear_ratio 25 and a pulley of 36 in move the belt at 673 fpm',
-        ),
-        (
             {"belt.mass": None, "belt.carcass.mass": "2.7 lb/ft^2"},
             "belt.carcass.mass: 2.7 lb/ft² for the carcass of",
         ),

@@ -296,8 +296,8 @@ def least_pipe_stiffness(belt_weight: float, *, half_angle: float, radius: float
     Returns
     -------
     float or None
-        D [N m²/m], whichever edge lies outside in the lap; None where a roll bears at no stiffness, as with laps below
-        12 %.
+        D [N m²/m], whichever edge lies outside in the lap; None where a roll bears at no stiffness, as with laps of up
+        to 10 %.
 
     Raises
     ------

@@ -39,6 +39,7 @@ PLOUGH_PER_INCH: Final = Default(5.0, 3.0, 5.0, f"{_SOURCE}: full plough; 3 for 
 SEALS_PER_FOOT: Final = Default(6.0, 6.0, 6.0, f"{_SOURCE}: rubber seals of both skirts", True)  # [lbf/ft]
 
 Place = Literal["tight", "slack", "other"]
+DRIVE_PULLEY_FRICTION: Final = 200.0 * POUND_FORCE  # [N], CEMA: bearings, in the motor power alone
 PULLEY_FRICTION: Final[dict[Place, float]] = {"tight": 200.0, "slack": 150.0, "other": 100.0}  # [lbf], CEMA
 
 

@@ -18,6 +18,7 @@ from conveyor.report.tables.inputs import InputRow, group_inputs
 from conveyor.spec import fingerprint
 from conveyor.units import Quantity, System
 from conveyor.units.presentation import display_unit, format_figure
+from conveyor.units.sentences import percent
 
 _PACKAGES: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
@@ -52,7 +53,8 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
         lying = f" at {inner}{shown(of.trough_angle, 'angle')}" if of.rolls > 1 else ""
         if (pipe := FormedPipe.of(conveyor, of)) is not None:
             load = display_unit("force", system).said(pipe.forming_load, 3)
-            lying = f" around a pipe of {shown(of.pipe.diameter, 'thickness')}, forming load {load} a roll"
+            lap = f"{display_unit('thickness', system).said(pipe.lap, 3)} ({percent(pipe.lap / pipe.circumference)})"
+            lying = f" around a pipe of {shown(of.pipe.diameter, 'thickness')}, lap {lap}, forming load {load} a roll"
         return f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}{lying}, every {shown(of.spacing, 'length')}"
 
     known = ("breaking", carcass.strength, "belt strength"), ("rated", carcass.rating, "belt rating")
