@@ -387,7 +387,7 @@ def _has_loss(contact: RollContact) -> bool:
 def _read_belt_contacts(held: Contacts, pulls: Array, families: Sequence[TensionedCurves]) -> BeltContacts:
     """Resistance of every roll at the tensions of its stretch."""
     line, covers = held.line, held.covers
-    curves, drags = [], []
+    curves, resistances = [], []
     for kind, family in zip(line.kinds, families, strict=True):
         here = pulls[[i for i, _ in kind.rolls]]
         middle = float((here @ STRETCH_QUADRATURE[1]).mean())
@@ -398,5 +398,5 @@ def _read_belt_contacts(held: Contacts, pulls: Array, families: Sequence[Tension
             resistance = resistance * tested.factor(kind.distinct)
         weights = (family.weights(here) * STRETCH_QUADRATURE[1][:, None]).sum(axis=1)
         of_roll = np.repeat(weights, np.diff([*kind.starts, kind.which.size]), axis=0)
-        drags.append(integrate_along_rolls(kind, (of_roll * resistance.T[kind.which]).sum(axis=1)))
-    return BeltContacts(line, covers, tuple(curves), tuple(drags), pulls, held)
+        resistances.append(integrate_along_rolls(kind, (of_roll * resistance.T[kind.which]).sum(axis=1)))
+    return BeltContacts(line, covers, tuple(curves), tuple(resistances), pulls, held)
