@@ -133,7 +133,7 @@ class Preparation:
             strand: acted.once(
                 partial(self._cover_loading, CoverLoading(running.line, strand, cover, compounds[strand], at), rtol),
                 "work",
-                (running.line, cover.rubber, compounds[strand], *((cover.other[1],) if gives else ())),
+                (running.line, cover.series, compounds[strand], *((cover.opposite_cover[1],) if gives else ())),
                 (strand, at, rtol),
             )
             for strand, cover in covers_by_strand(given, rubber).items()
@@ -161,10 +161,10 @@ class Preparation:
         times = resolved_time_range(work, rtol)
         if times is None:
             return work
-        rubber, (fastest, slowest) = work.cover.rubber, times
-        cut = tuple(rubber.times.searchsorted(times).tolist())
-        less = self._kept.once(lambda: rubber.merged(fastest=fastest, slowest=slowest), "merged", (rubber,), cut)
-        return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * TERM_MERGE_SHARE * rtol))
+        series, (fastest, slowest) = work.cover.series, times
+        cut = tuple(series.times.searchsorted(times).tolist())
+        less = self._kept.once(lambda: series.merged(fastest=fastest, slowest=slowest), "merged", (series,), cut)
+        return replace(work, cover=replace(work.cover, series=less, merging_error=2.0 * TERM_MERGE_SHARE * rtol))
 
     def _line_without_drag(self, given: Conveyor, on_curves: CurveLoads) -> PreparedLine:
         """Line of a spec without roll drags."""

@@ -380,8 +380,8 @@ def _accept_interpolation(
 
 def _has_loss(contact: RollContact) -> bool:
     behind = contact.backing
-    inside = behind is not None and (behind.rubber.moduli.size > 0 or behind.bending * behind.bending_loss > 0.0)
-    return inside or contact.rubber.moduli.size > 0
+    inside = behind is not None and (behind.series.moduli.size > 0 or behind.bending * behind.bending_loss > 0.0)
+    return inside or contact.series.moduli.size > 0
 
 
 def _read_belt_contacts(held: Contacts, pulls: Array, families: Sequence[TensionedCurves]) -> BeltContacts:

@@ -47,26 +47,27 @@ class CoverTestFactor:
 
 @dataclass(frozen=True, eq=False)
 class CoverState:
-    """A cover under rolls: thickness [m], rubber at its temperature, Poisson's ratio.
+    """A cover under rolls: thickness [m], Prony series at its temperature, Poisson's ratio.
 
     `strain` is the working strain; None for that of the master curve. `test_factor` is that on indentation; None
-    without one. `other` is the belt's other cover: thickness [m], rubber at small strain. `merged` and `read` are the
-    relative errors of indentation by merged relaxation terms and by a strain interpolated between speeds [-].
+    without one. `opposite_cover` is the belt's other cover: thickness [m], series at small strain. `merging_error` and
+    `interpolation_error` are the relative errors of indentation by merged relaxation terms and by a strain interpolated
+    between speeds [-].
     """
 
     thickness: float
-    rubber: PronySeries
+    series: PronySeries
     poisson: float
-    other: tuple[float, PronySeries]
+    opposite_cover: tuple[float, PronySeries]
     strain: WorkingStrain | None = None
     test_factor: CoverTestFactor | None = None
-    merged: float = 0.0
-    read: float = 0.0
+    merging_error: float = 0.0
+    interpolation_error: float = 0.0
 
     @property
     def indentation_error(self) -> float:
         """Relative error of indentation by the approximated rubber [-]."""
-        return self.merged + self.read
+        return self.merging_error + self.interpolation_error
 
 
 CoverName: TypeAlias = Strand | Literal["top"]
@@ -137,8 +138,8 @@ class CoverLoading:
             line.softened,
             line.support,
             cover.thickness,
-            cover.other if line.support == "belt" else None,
-            cover.merged,
+            cover.opposite_cover if line.support == "belt" else None,
+            cover.merging_error,
             *(kind.bearing for kind in self.kinds),
         )
 
@@ -269,18 +270,22 @@ def _interpolate_strains(
 
 
 def _softened_cover(
-    cover: CoverState, soft: SoftCover | NoSolutionError | RangeError | None, read: float
+    cover: CoverState, soft: SoftCover | NoSolutionError | RangeError | None, interpolation_error: float
 ) -> CoverState | NoSolutionError | RangeError:
     if soft is None:
         return cover
-    return replace(cover, rubber=soft[0], strain=soft[1], read=read) if isinstance(soft, tuple) else soft
+    return (
+        replace(cover, series=soft[0], strain=soft[1], interpolation_error=interpolation_error)
+        if isinstance(soft, tuple)
+        else soft
+    )
 
 
 def belt_backing(line: Line, cover: CoverState, tension: float) -> Backing:
     """Backing of a cover by the belt at a tension T - m' V² per width [N/m]."""
-    thickness, rubber = cover.other
+    thickness, series = cover.opposite_cover
     body = line.belt
-    return Backing(tension, body.bending, body.bending_loss, body.tensile_stiffness or 0.0, thickness, rubber)
+    return Backing(tension, body.bending, body.bending_loss, body.tensile_stiffness or 0.0, thickness, series)
 
 
 def roll_contact(line: Line, kind: RollKind, cover: CoverState, behind: Backing | None = None) -> RollContact:
@@ -291,7 +296,7 @@ def roll_contact(line: Line, kind: RollKind, cover: CoverState, behind: Backing 
         spacing=kind.spacing,
         cover_thickness=cover.thickness,
         speed=line.speed,
-        rubber=cover.rubber,
+        series=cover.series,
         poisson=cover.poisson,
         support=support if behind is None else "belt",
         backing=behind,

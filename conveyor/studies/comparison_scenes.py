@@ -281,7 +281,7 @@ def _indentation_band(
         return (1.0, 1.0), (1.0, 1.0)
     base = compound.series(temperature)
     contact, load = roll.curve.contact, roll.load.peak_line_load
-    problems = [to_problem(replace(contact, rubber=rubber), load) for rubber in (base, *replicas)]
+    problems = [to_problem(replace(contact, series=rubber), load) for rubber in (base, *replicas)]
     friction = np.array([solution.friction for solution in solve_many(problems, _BAND_RTOL, throw=True)])
     band = quantile_band(friction[1:] / friction[0])
     return band, band

@@ -145,7 +145,7 @@ def test_a_belt_turned_over_runs_on_its_bottom_cover():
     conveyor = given()
     turned = calculate(conveyor.replace(route=conveyor.route.replace(turned_over=True)))
     top = si(conveyor.belt.top_cover.thickness)
-    assert {cover.other[0] for cover in turned.contacts.covers.values()} == {top}
+    assert {cover.opposite_cover[0] for cover in turned.contacts.covers.values()} == {top}
 
 
 def test_what_stands_in_is_said(found):
