@@ -343,7 +343,7 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
     Rolls keep their loads, and pulleys their wraps but for those that scale with a default of their own; what the
     tensions add to both is of second order.
     """
-    motor, settled = result.balance.frame.motor, result.balance.settled
+    motor, settled = result.balance.layout.motor, result.balance.settled
     changes = list(_force_changes(result))
     effects = []
     for assumed, ends, forces in changes:
@@ -365,7 +365,7 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
 
 def _power_to_design_for(result: CalculatedConveyor) -> tuple[float, float, str]:
     """Friction over the computed one [-] with which the motors give or hold most, that power [W] and its source."""
-    line, settled, motor = result.line, result.balance.settled, result.balance.frame.motor
+    line, settled, motor = result.line, result.balance.settled, result.balance.layout.motor
     most, least = motor(settled.design_force), motor(settled.least_force)
     if abs(least) > abs(most):
         return line.least_friction, least, "the least that is certain"
@@ -394,7 +394,7 @@ def close_design_loops(
         Their loops.
     """
     asked = [
-        loop._replace(frame=loop.frame.designed_for(friction_band(one)[1]))
+        loop._replace(layout=loop.layout.designed_for(friction_band(one)[1]))
         for one, loop in zip(results, loops, strict=True)
     ]
     return [

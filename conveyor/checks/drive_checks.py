@@ -24,7 +24,7 @@ _AT_LEAST: Final[Relation] = "at least"
 
 def motor_power(result: CalculatedConveyor) -> Iterator[Check]:
     """Every drive's motors give its share with the friction to design for, or hold it with the least."""
-    line, motor = result.line, result.balance.frame.motor
+    line, motor = result.line, result.balance.layout.motor
     low, high = result.drive_forces
     designed = high > result.balance.settled.force
     for drive in line.drives:
@@ -148,7 +148,7 @@ def _backstop_forces(line: Line) -> tuple[float, ...]:
 
 def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:
     """Parts of the drives, starts an hour and uncontrolled load sharing are within their limits; where given."""
-    motor = result.balance.frame.motor
+    motor = result.balance.layout.motor
     for duty in result.drive_duty:
         name, parts, installed = escape_braces(duty.drive.name), duty.parts, duty.drive.power
         if parts.backstop is not None and duty.backstop is not None:

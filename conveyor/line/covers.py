@@ -128,7 +128,7 @@ class CoverLoading:
         return self.line.strands.each[STRANDS.index(self.strand)].kinds
 
     @property
-    def scene(self) -> tuple[object, ...]:
+    def key(self) -> tuple[object, ...]:
         """Key equal for strands that load their covers identically, besides the compound."""
         line, cover = self.line, self.cover
         return (
@@ -143,7 +143,7 @@ class CoverLoading:
             *(kind.bearing for kind in self.kinds),
         )
 
-    def worked(self) -> SofteningCover | None:
+    def softening(self) -> SofteningCover | None:
         """Contact that determines the working strain; None without strain dependence."""
         factors = self.compound.amplitude_factors() if self.line.softened and self.kinds else None
         if factors is None:
@@ -195,16 +195,16 @@ STRAIN_INTERPOLATION_RTOL: Final = 1e-4
 
 
 def softened_covers(
-    works: Sequence[CoverLoading], runs: Sequence[Sequence[CoverLoading]]
+    loadings: Sequence[CoverLoading], runs: Sequence[Sequence[CoverLoading]]
 ) -> list[CoverState | NoSolutionError | RangeError]:
     """Covers at their working strain, where the compounds have strain sweeps, solved in one batch.
 
     Parameters
     ----------
-    works : sequence of CoverLoading
+    loadings : sequence of CoverLoading
         Loaded strands.
     runs : sequence of sequence of CoverLoading
-        Strands of `works` that differ in speed alone.
+        Strands of `loadings` that differ in speed alone.
 
     Returns
     -------
@@ -212,7 +212,7 @@ def softened_covers(
         Covers of the strands in their order, or the error: no solution at the working strain, or sweeps that do not
         reach it.
     """
-    asked = {work: worked for work in works if (worked := work.worked()) is not None}
+    asked = {work: softening for work in loadings if (softening := work.softening()) is not None}
     threes = {three: part for run in runs for part in _speed_groups(run) for three in [_interpolation_nodes(part)]}
     between = {work for three, part in threes.items() for work in part if work not in three}
     alone = [work for work in asked if work not in between]
@@ -227,7 +227,7 @@ def softened_covers(
     soft |= zip(left, soften_covers([asked[work] for work in left]), strict=True)
     return [
         _softened_cover(work.cover, soft.get(work), STRAIN_INTERPOLATION_ERROR if work in read else 0.0)
-        for work in works
+        for work in loadings
     ]
 
 

@@ -68,8 +68,8 @@ def _design_motion(balance: Balance) -> MotionState:
 def _without_hopper_loads(balance: Balance) -> Balance:
     """The loop without vertical loads under its hoppers, the take-up at its setting."""
     changed = {(force.spot, force.name): force for force in hopper_forces(balance.line, lambda _: 0.0)}
-    frame = balance.frame.scaled(lambda force: changed.get((force.spot, force.name), force))
-    asked = OpenLoop.of(frame, balance.along, balance.unit_main, balance.settled.take_up)
+    layout = balance.layout.scaled(lambda force: changed.get((force.spot, force.name), force))
+    asked = OpenLoop.of(layout, balance.along, balance.unit_main, balance.settled.take_up)
     return raise_first_error(close_loops([asked]))[0]
 
 

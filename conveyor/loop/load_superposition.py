@@ -275,7 +275,7 @@ class SectionLoadings:
         if state.name not in _STARTS:
             return acceleration, forces
         pulls = resistance > 0.0
-        pushed, pulled = start_motion(self.full.frame.standing.pull, np.where(pulls, resistance, 1.0), mass)
+        pushed, pulled = start_motion(self.full.layout.standing.pull, np.where(pulls, resistance, 1.0), mass)
         return np.where(pulls, pushed, acceleration), np.where(pulls, pulled.T, forces)
 
     def _offsets(self, state: _MotionCase, loading: Loading, acceleration: float, forces: Array) -> Array:

@@ -47,12 +47,12 @@ _EventRow = tuple[float, float, float, float, float, float, int]
 
 def loop_events(full: Balance, empty: Balance) -> LoopEvents:
     """Events round the loop from the head, in running direction."""
-    line, frame, count = full.line, full.frame, full.line.count
+    line, layout, count = full.line, full.layout, full.line.count
     rows: list[_EventRow] = []
     stretches: list[int] = []
     drives = np.zeros(len(line.drives), dtype=int)
     held, spots = 0, list[int]()
-    standing = iter(list(enumerate(frame.spots)))
+    standing = iter(list(enumerate(layout.spots)))
     following = next(standing, None)
     for boundary, (bare, laden) in enumerate(
         zip([*_stretch_events(empty), None], [*_stretch_events(full), None], strict=True)
@@ -61,10 +61,10 @@ def loop_events(full: Balance, empty: Balance) -> LoopEvents:
             j = following[0]
             spots.append(len(rows))
             rows += _point_events(full, empty, j)
-            for d in frame.drives[j]:
+            for d in layout.drives[j]:
                 drives[d] = len(rows)
                 rows.append((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1))
-            if j == frame.anchor:
+            if j == layout.anchor:
                 held = len(rows)
             following = next(standing, None)
         if bare is not None and laden is not None:
@@ -74,8 +74,8 @@ def loop_events(full: Balance, empty: Balance) -> LoopEvents:
             else:
                 more = (laden[0] - bare[0], laden[1] - bare[1], laden[2] - bare[2])
                 rows.append((*bare, *more, boundary - count))
-    if frame.anchor is None:
-        held = int(drives[frame.station[-1]]) + 1 if full.settled.take_up.behind else int(drives[frame.station[0]])
+    if layout.anchor is None:
+        held = int(drives[layout.station[-1]]) + 1 if full.settled.take_up.behind else int(drives[layout.station[0]])
     columns = list(zip(*rows, strict=True))
     values = [np.array(column, dtype=float) for column in columns[:-1]]
     force, certain, mass, more_force, more_certain, more_mass = values
@@ -99,10 +99,10 @@ def _stretch_events(balance: Balance) -> list[tuple[float, float, float] | None]
 
 def _point_events(full: Balance, empty: Balance, j: int) -> Iterator[_EventRow]:
     """Forces at a spot: of bulk with its section, of the length coefficient by section, and the rest."""
-    frame = full.frame
-    spot = frame.spots[j]
+    layout = full.layout
+    spot = layout.spots[j]
     always = math.fsum(
-        force for bend, force in zip(frame.bends, full.settled.bends, strict=True) if bend.pulley.spot == spot
+        force for bend, force in zip(layout.bends, full.settled.bends, strict=True) if bend.pulley.spot == spot
     )
     for force in full.settled.points:
         if force.spot != spot:

@@ -69,7 +69,7 @@ class TakeUpDuty:
 def on_common_side(loops: Sequence[Balance]) -> list[Balance]:
     """Put a slack-side take-up of all loops on the side of the drives it has in the first."""
     kept = loops[0].settled.take_up
-    stand = all(one.frame.standing_on(behind=kept.behind) is one.frame for one in loops)
+    stand = all(one.layout.standing_on(behind=kept.behind) is one.layout for one in loops)
     return list(loops) if stand else with_take_up_at(loops, kept)
 
 

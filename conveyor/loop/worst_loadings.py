@@ -133,7 +133,7 @@ class CriterionLoadings(SectionLoadings):
                 continue
             pairs = zip(line.drives, self.drive_at.tolist(), strict=True)
             beside = [d for drive, d in pairs if pulley.driven and drive.spot == pulley.spot]
-            before = self.events.spots[self.full.frame.at[pulley.spot]]
+            before = self.events.spots[self.full.layout.at[pulley.spot]]
             places[i] = [at for d in beside for at in (d, d + 1)] or [before]
         return places
 
@@ -229,7 +229,7 @@ class CriterionLoadings(SectionLoadings):
         rests = np.asarray(~(flags & slides).any(axis=-1))
         figures["slip on stopping"] = _where_present(rests, np.maximum(slowing, -starts.min(axis=0)) / hard)
         figures["slip on starting"] = _where_present(rests, np.maximum(starts.max(axis=0), 0.0) / fast)
-        pulls, pull = most > 0.0, self.full.frame.standing.pull
+        pulls, pull = most > 0.0, self.full.layout.standing.pull
         if pull.kind == "limited":
             asked = start_force_ratio(pull, np.where(pulls, most, 1.0), mass)
             figures["start of the motors"] = _where_present(pulls, asked)

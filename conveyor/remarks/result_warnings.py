@@ -250,7 +250,7 @@ def _calibration_warnings(conveyor: Conveyor) -> Iterator[Message]:
 
 def _size_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     """A flow far too small for the belt, and motors far too large for the conveyor."""
-    conveyor, line, motor = result.conveyor, result.line, result.balance.frame.motor
+    conveyor, line, motor = result.conveyor, result.line, result.balance.layout.motor
     share = line.flow / (line.speed * line.density * conveyor.flooded_section)
     if 0.0 < share < LEAST_FILLING:
         yield message(

@@ -90,7 +90,9 @@ class Analysis(CalculatedConveyor):
         if states is None:
             return self
         own = states.own
-        return replace(self, contacts=own.contacts, balance=own.balance, fixed=own.fixed, convergence=own.convergence)
+        return replace(
+            self, contacts=own.contacts, balance=own.balance, rubber_free=own.rubber_free, convergence=own.convergence
+        )
 
     def assess(self, studies: Studies | None = None) -> Assessment:
         """Checks, governing loads, range of power and take-up, with `conveyor.analyse_studies` if given."""

@@ -384,7 +384,7 @@ def _powers_by_basis(task: SizingTask, one: CalculatedConveyor) -> Iterator[floa
     balance, basis = one.balance, task.rules.basis
     estimate = balance.cema if basis == "cema classic" else balance.classical
     if basis != "viscoelastic" and estimate is not None:
-        whole = balance.frame.shaft_power(estimate.motor_force)
+        whole = balance.layout.shaft_power(estimate.motor_force)
         yield from (abs(drive.share * whole) for drive in one.line.drives)
 
 

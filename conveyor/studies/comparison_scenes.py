@@ -226,7 +226,7 @@ def _compared_scene(name: str, one: CalculatedConveyor, strands: frozenset[Stran
     forces, power = balance.forces, balance.power
     indented = balance.along[0].by_strand()
     changed = math.fsum(indented[strand] for strand in strands) / (1.0 - (one.line.flexure_share or 0.0))
-    motor = balance.frame.motor
+    motor = balance.layout.motor
     powers = [sorted(motor(forces.total + (factor - 1.0) * changed) for factor in band) for band in bands]
     whole, own = ((low, high) for low, high in powers)
     return ComparedScene(

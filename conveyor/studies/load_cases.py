@@ -69,7 +69,7 @@ class Load:
     @cached_property
     def motors(self) -> tuple[float, float]:
         """Motor shaft power with the friction at both ends of the band [W]."""
-        low, high = map(self.found.balance.frame.motor, self.forces)
+        low, high = map(self.found.balance.layout.motor, self.forces)
         return low, high
 
     @cached_property

@@ -299,7 +299,7 @@ def test_cema_by_hand_in_its_own_units(line):
     # 5 lbf/in: its own, whatever this calculation has
     own = 6.0 * ((5.0**2 - 1.5**2) / 9.81 + 6.0) / FT + 5.0 * 2.0 * 1.1 / (FT / 12.0)
     assert found.cema.special / LBF == pytest.approx(own, rel=1e-12)
-    assert found.frame.motor(found.cema.total) == pytest.approx(found.cema.total * 5.0 / 0.94, rel=1e-12)
+    assert found.layout.motor(found.cema.total) == pytest.approx(found.cema.total * 5.0 / 0.94, rel=1e-12)
     assert found.cema.friction_factor == pytest.approx(found.cema.main / found.unit_main, rel=1e-12)
     whole = calculate(line).balance
     assert found.unit_main == pytest.approx(whole.forces.main / whole.friction_factor, rel=1e-12)

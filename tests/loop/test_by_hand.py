@@ -26,7 +26,7 @@ def test_the_classical_estimate_is_that_of_din_22101():
     assert found.special == pytest.approx(one.forces.special, rel=1e-12)
     total = 1.09 * main + one.forces.special + BULK * GRAVITY * 23.0
     assert found.total == pytest.approx(total, rel=1e-12)
-    assert one.frame.motor(found.total) == pytest.approx(total * 4.0 / 0.94, rel=1e-12)
+    assert one.layout.motor(found.total) == pytest.approx(total * 4.0 / 0.94, rel=1e-12)
 
 
 def test_beyond_the_table_of_c_the_secondary_resistances_are_itemised():

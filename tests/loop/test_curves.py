@@ -243,7 +243,7 @@ def test_examples_hold(name):
     found = done.balance
     settled, sides = found.settled, found.settled.steady.drives
     assert math.fsum(side.force for side in sides) == pytest.approx(found.forces.total, rel=1e-12)
-    motors = math.fsum(found.frame.motor(side.force) for side in sides)
+    motors = math.fsum(found.layout.motor(side.force) for side in sides)
     assert motors == pytest.approx(found.power.motor, rel=1e-12)
     for state in settled.states.values():
         for drive, side in zip(done.line.drives, state.drives, strict=True):

@@ -35,9 +35,9 @@ def rubbed_more(balance, factor):
         at_sag_limit = None if force.at_sag_limit is None else force.at_sag_limit * factor
         return force if force.certain else replace(force, newtons=force.newtons * factor, at_sag_limit=at_sag_limit)
 
-    frame = balance.frame.scaled(more).designed_for(1.0)
+    layout = balance.layout.scaled(more).designed_for(1.0)
     along = tuple(map(more, balance.along))
-    (made,) = close_loops([OpenLoop.of(frame, along, balance.unit_main, balance.settled.take_up)])
+    (made,) = close_loops([OpenLoop.of(layout, along, balance.unit_main, balance.settled.take_up)])
     return made
 
 
@@ -87,7 +87,7 @@ def test_a_belt_that_drives_its_motors_is_held_with_the_least_friction():
     result = designed("downhill_brakes", 1.3)
     powers = [check for check in run_checks(result) if check.key == "motor_power"]
     assert {check.where for check in powers} == {LEAST}
-    held = abs(result.balance.frame.motor(result.balance.settled.least_force))
+    held = abs(result.balance.layout.motor(result.balance.settled.least_force))
     assert sum(check.calculated for check in powers) == pytest.approx(held, rel=ROUNDING)
 
 

@@ -92,7 +92,7 @@ def test_the_loop_closes_in_every_state(case):
 
 def test_the_points_follow_the_belt_round_the_loop(case):
     _, found = case
-    steady, last = found.settled.steady, found.frame.boundaries[-1]
+    steady, last = found.settled.steady, found.layout.boundaries[-1]
     tensions = {point.place: point.tension for point in found.points}
     assert len(tensions) == len(found.points)
     assert (np.diff([point.distance for point in found.points]) >= 0.0).all()
@@ -288,7 +288,7 @@ def test_a_slack_belt_is_calculated_and_fails_with_what_would_cure_it():
     start = found.settled.states["start"].smallest
     assert cured == pytest.approx(100.0 - start, rel=5e-3)  # three digits
     # there nothing is slack but by what the tension adds to the resistance of the pulleys, which a start raises by 1.3
-    added = 1.3 * sum(bend.wrap[1] + 2.0 * (bend.bearings or 0.0) for bend in found.frame.bends)
+    added = 1.3 * sum(bend.wrap[1] + 2.0 * (bend.bearings or 0.0) for bend in found.layout.bends)
     again = closed(slack_line(cured), 0.03).settled.states["start"].smallest
     assert abs(again) < (added + 5e-3) * cured
 

@@ -157,12 +157,12 @@ def test_a_single_roll_has_no_wings_to_tilt():
 def test_motors_that_hold_a_falling_belt_are_designed_for_the_least_friction():
     """The less friction, the more they hold."""
     falling, level = (calculate(load(SPECS / name)) for name in ("downhill.yaml", "in_plant_us.yaml"))
-    motor, settled, designed = falling.balance.frame.motor, falling.balance.settled, power_range(falling)
+    motor, settled, designed = falling.balance.layout.motor, falling.balance.settled, power_range(falling)
     assert designed.design == pytest.approx(motor(settled.least_force), rel=1e-12)
     assert designed.design < motor(settled.design_force) < 0.0
     assert designed.design_friction == falling.line.least_friction
     climbing = level.balance
-    assert power_range(level).design == pytest.approx(climbing.frame.motor(climbing.settled.design_force), rel=1e-12)
+    assert power_range(level).design == pytest.approx(climbing.layout.motor(climbing.settled.design_force), rel=1e-12)
 
 
 def test_a_backstop_without_its_torque_is_not_judged_by_the_brakes():

@@ -123,7 +123,7 @@ def test_no_weaker_class_and_no_smaller_motor_would_do(small, sized):
         assert design.safety >= 8.0
         (motor,) = design.chosen.motors
         balance = design.coldest.balance
-        needed = small.rules.motor_reserve * abs(balance.frame.motor(balance.settled.design_force))
+        needed = small.rules.motor_reserve * abs(balance.layout.motor(balance.settled.design_force))
         assert (
             needed <= motor <= 1.35 * needed
         )  # the widest step of the series: 1.1 to 1.5 of small, 1.33 of large ones

@@ -263,7 +263,7 @@ def test_downhill_the_low_friction_feeds_back_most(downhill):
     power, (low, high) = full.found.balance.power, full.motors
     assert low < power.motor < 0.0
     settled = full.found.balance.settled
-    assert high == pytest.approx(full.found.balance.frame.motor(settled.design_force), rel=ROUNDING)
+    assert high == pytest.approx(full.found.balance.layout.motor(settled.design_force), rel=ROUNDING)
     assert high > power.motor
     assert power.belt < power.motor  # the train's losses are on the way to the motor
     worst = {g.figure: g for g in study.governing}["minimum motor power"]
@@ -342,7 +342,7 @@ def test_each_of_several_drives_has_its_share_of_the_motors(line):
     assert (first.drive, second.drive) == ("drive", "second")
     assert second.needed / first.needed == pytest.approx(2.0 / 3.0, rel=1e-12)
     balance = study.results[0].found.balance
-    whole = balance.frame.motor(balance.settled.design_force)
+    whole = balance.layout.motor(balance.settled.design_force)
     assert first.needed + second.needed == pytest.approx(whole, rel=1e-12)
 
 

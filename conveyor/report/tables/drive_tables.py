@@ -16,7 +16,7 @@ from conveyor.studies.load_cases import Load
 
 def drive_table(a: CalculatedConveyor) -> Table:
     """Force, power, tensions and grip of every drive in every state."""
-    motor, states = a.balance.frame.motor, a.balance.settled.states
+    motor, states = a.balance.layout.motor, a.balance.settled.states
     columns = (
         Column("drive", "text", "0.name"),
         Column("state", "text", "1"),
@@ -118,7 +118,7 @@ def brake_table(a: CalculatedConveyor) -> Table:
 
 def _uncontrolled_power(a: CalculatedConveyor, duty: DriveDuty) -> float | None:
     """Power of a drive where nothing but the belt couples the drives [W]; None where none differs."""
-    return None if duty.shared is None else a.balance.frame.motor(duty.shared, duty.drive.share)
+    return None if duty.shared is None else a.balance.layout.motor(duty.shared, duty.drive.share)
 
 
 def drive_parts(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
