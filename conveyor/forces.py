@@ -141,7 +141,7 @@ def forces_along_belt(
         return (factor_main_force(line, rubber_free.unit_main), *beside)
     factors = calibration or Calibration()
     indentation = factors.indentation * indentation
-    rotation = factors.idler_rotation * roll_drag * line.rotation
+    rotation = factors.idler_rotation * roll_drag * line.roll_drag_forces
     flexure, share = rubber_free.flexure, line.flexure_share or 0.0
     if flexure is None:
         flexure = np.array([

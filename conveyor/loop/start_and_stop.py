@@ -203,7 +203,7 @@ def _braked_stop(
 def _conveyor_start(balance: Balance, mass: float, rotating: float, friction: float) -> Start:
     """Start at a friction over the computed one [-]."""
     line, steady = balance.line, balance.settled.resistance(friction)
-    drag = balance.forces.parts.get("idler_rotation", float(line.rotation.sum()))
+    drag = balance.forces.parts.get("idler_rotation", float(line.roll_drag_forces.sum()))
     stuck = friction * (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * drag
     stuck += friction * math.fsum(initial_pull(line, point) for point in line.loading)
     if steady <= 0.0:
@@ -252,7 +252,7 @@ def _slip_limits(line: Line) -> SlipLimits | None:
         if stretch.bulk_mass == 0.0:
             continue
         try:
-            low, high = bulk_slip_limits(line.bulk_on_belt, inclination=stretch.inclination, gravity=line.gravity)
+            low, high = bulk_slip_limits(line.bulk_belt_friction, inclination=stretch.inclination, gravity=line.gravity)
         except NoSolutionError:
             sliding.append(stretch.section)
             continue

@@ -153,7 +153,9 @@ class CriterionLoadings(SectionLoadings):
         """Addition to rolls and hoppers after standstill [N], at the friction to design for; as in `at_rest`."""
         drags = []
         for one in (self.empty, self.full):
-            drag = next((force.newtons for force in one.along if force.key == "idler_rotation"), one.line.rotation)
+            drag = next(
+                (force.newtons for force in one.along if force.key == "idler_rotation"), one.line.roll_drag_forces
+            )
             drags.append(np.broadcast_to(drag, 2 * self.count))
         bare, laden = drags
         share = self.line.design_friction * (ROLL_DRAG_STANDSTILL_FACTOR - 1.0)
@@ -172,7 +174,7 @@ class CriterionLoadings(SectionLoadings):
                 continue
             try:
                 low, high = bulk_slip_limits(
-                    self.line.bulk_on_belt, inclination=stretch.inclination, gravity=self.line.gravity
+                    self.line.bulk_belt_friction, inclination=stretch.inclination, gravity=self.line.gravity
                 )
             except NoSolutionError:
                 slides[i] = True

@@ -162,7 +162,7 @@ def test_specs_that_share_a_strand_share_its_stretches_and_drags():
     assert first.strands.each[0] is not second.strands.each[0]
     assert second.stretches[1].spacing == 2.0
     alone = calculate(wider)
-    assert second.rotation.tolist() == alone.line.rotation.tolist()
+    assert second.roll_drag_forces.tolist() == alone.line.roll_drag_forces.tolist()
 
 
 def test_one_result_a_case_speed_and_temperature(found):
