@@ -264,7 +264,7 @@ def _tension_convergence(result: CalculatedConveyor, step: _IterationState) -> C
 
 def _is_settled(result: CalculatedConveyor) -> bool:
     """True if tensions and roll loads have converged."""
-    return result.convergence is not None and result.convergence.settled(result.line.rtol)
+    return result.convergence is not None and result.convergence.has_converged(result.line.rtol)
 
 
 class _ProgressReporter:

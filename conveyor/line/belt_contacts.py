@@ -162,7 +162,7 @@ class BeltContacts(Contacts):
         of_kinds, middle = super().rolls, self.pulls @ STRETCH_QUADRATURE[1]
         return tuple(
             tuple(
-                replace(roll, curve=_curve_at_tension(roll.curve, pull), held=fast.curve, beside=None)
+                replace(roll, curve=_curve_at_tension(roll.curve, pull), rigid_curve=fast.curve, beside=None)
                 for roll, fast in zip(rolls, held, strict=True)
             )
             for rolls, held, pull in zip(of_kinds, self.confined.rolls, middle.tolist(), strict=True)

@@ -62,7 +62,7 @@ class RollResult:
         Its load curve.
     resistance : float
         Indentation resistance of the roll, ∫ f(w(y)) dy along it [N].
-    held : IndentationCurve, optional
+    rigid_curve : IndentationCurve, optional
         Load curve on a rigid carcass, where that of `curve` yields.
     beside : (PeakContacts, int), optional
         Contacts of all rolls of the curve, and the number of this one.
@@ -72,7 +72,7 @@ class RollResult:
     load: RollLoad
     curve: IndentationCurve
     resistance: float
-    held: IndentationCurve | None = None
+    rigid_curve: IndentationCurve | None = None
     beside: tuple[PeakContacts, int] | None = None
 
     @cached_property
@@ -86,9 +86,9 @@ class RollResult:
     @property
     def cover_penetration(self) -> float:
         """Penetration of the cover alone at the highest line load, without the carcass's deflection [m]."""
-        if self.held is None:
+        if self.rigid_curve is None:
             return float(self.peak.penetration)
-        return float(self.held.penetration(self.load.peak_line_load))
+        return float(self.rigid_curve.penetration(self.load.peak_line_load))
 
 
 @dataclass(frozen=True, eq=False)

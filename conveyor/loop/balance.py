@@ -158,7 +158,7 @@ class Balance:
         return cema_estimate(self.line, self.unit_main)
 
     @cached_property
-    def points(self) -> tuple[TensionPoint, ...]:
+    def tension_points(self) -> tuple[TensionPoint, ...]:
         """Tensions round the loop in steady running, from the head back to it."""
         return tuple(_tension_points(self.settled, self.settled.steady))
 

@@ -40,7 +40,7 @@ def result(line):
 @pytest.mark.parametrize("name", ["overland", "in_plant_us", "downhill"])
 def test_the_loop_closes_and_power_is_force_times_speed(name):
     found = calculate(load(SPECS / f"{name}.yaml"))
-    forces, points = found.balance.forces, found.balance.points
+    forces, points = found.balance.forces, found.balance.tension_points
     assert points[-1].tension - points[0].tension == pytest.approx(forces.total, rel=1e-9)
     assert math.fsum(force.total for force in found.balance.every) == pytest.approx(forces.total, rel=1e-12)
     speed = si(found.conveyor.belt.speed)
@@ -53,7 +53,7 @@ def test_the_loop_closes_and_power_is_force_times_speed(name):
 def test_the_sag_asks_for_tension_between_the_sets_and_not_at_pulleys(name):
     """m' g a / (8 h), with the bulk on the carry side: 12.5 m' g a where the belt sags by 1 % of the span."""
     found = calculate(load(SPECS / f"{name}.yaml"))
-    conveyor, points = found.conveyor, found.balance.points
+    conveyor, points = found.conveyor, found.balance.tension_points
     pulleys = [point for point in points if point.place.endswith(("arriving", "leaving"))]
     assert len(pulleys) >= 2
     assert {point.least_for_sag for point in pulleys} == {0.0}

@@ -236,7 +236,7 @@ def test_ploughs_are_special_resistances_at_their_place(line, result):
     }
     added = found.balance.forces.special - result.balance.forces.special
     assert added == pytest.approx(4600.0, rel=1e-9)
-    points = found.balance.points
+    points = found.balance.tension_points
     assert points[-1].tension - points[0].tension == pytest.approx(found.balance.forces.total, rel=1e-9)
     assert any("route.ploughs: scraping factor 1500 N/m assumed" in w for w in told(found))
     empty = calculate(made.replace(material=made.material.replace(flow="0 t/h")))

@@ -203,10 +203,10 @@ def test_the_first_step_on_curves_is_never_the_last(hill):
     steady = hill.balance.settled.steady
     first = next_convergence(None, steady, steady, hill.line, steady.largest)
     assert (first.steps, first.change) == (1, 0.0)
-    assert not first.settled(hill.line.rtol)
+    assert not first.has_converged(hill.line.rtol)
     second = next_convergence(replace(first, change=1e-3), steady, steady, hill.line, steady.largest)
     assert (second.steps, second.ratio) == (2, 0.0)
-    assert second.settled(hill.line.rtol)
+    assert second.has_converged(hill.line.rtol)
 
 
 def test_safety_and_diameters():
@@ -216,7 +216,7 @@ def test_safety_and_diameters():
     made = from_data(changes)
     found = closed(made)
     duty = belt_duty(found)
-    steady = max(point.tension for point in found.points)
+    steady = max(point.tension for point in found.tension_points)
     assert duty.largest_steady == pytest.approx(steady, rel=1e-14)
     assert duty.safety_steady == pytest.approx(630e3 / steady, rel=1e-14)
     assert duty.strength_needed["steady"] == pytest.approx(steady * 1.1 * 1.9 / 0.45, rel=1e-14)

@@ -93,9 +93,9 @@ def test_the_loop_closes_in_every_state(case):
 def test_the_points_follow_the_belt_round_the_loop(case):
     _, found = case
     steady, last = found.settled.steady, found.layout.boundaries[-1]
-    tensions = {point.place: point.tension for point in found.points}
-    assert len(tensions) == len(found.points)
-    assert (np.diff([point.distance for point in found.points]) >= 0.0).all()
+    tensions = {point.place: point.tension for point in found.tension_points}
+    assert len(tensions) == len(found.tension_points)
+    assert (np.diff([point.distance for point in found.tension_points]) >= 0.0).all()
     for stretch, start, end in zip(found.line.loop.stretches, steady.starts, steady.ends, strict=True):
         name = f"{stretch.section}, {stretch.strand}"
         assert (tensions[f"{name}, start"], tensions[f"{name}, end"]) == (start, end)
@@ -107,7 +107,7 @@ def test_the_points_follow_the_belt_round_the_loop(case):
             taken = tensions[f"{drive.name}, arriving"] - tensions[f"{drive.name}, leaving"]
             assert taken == pytest.approx(side.force, abs=CLOSED * steady.largest)
     # nothing stands between the end of the carry strand and a head pulley that is not driven
-    assert (found.points[-1].place, found.points[-1].tension) == (
+    assert (found.tension_points[-1].place, found.tension_points[-1].tension) == (
         ("drive, arriving", pytest.approx(at_head[0], rel=CLOSED))
         if at_head
         else ("head, arriving", pytest.approx(steady.ends[-1], rel=CLOSED))

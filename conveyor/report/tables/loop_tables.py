@@ -27,7 +27,7 @@ def tension_table(a: CalculatedConveyor) -> Table:
         Column("minimum tension (sag)", "force", "least_for_sag", key="least_for_sag"),
     )
     heading = "Tension round the loop, steady running, from the drive"
-    return Table("tensions", "Tensions", heading, columns, a.balance.points, printed=False)
+    return Table("tensions", "Tensions", heading, columns, a.balance.tension_points, printed=False)
 
 
 def profile_table(a: CalculatedConveyor) -> Table:
