@@ -12,7 +12,6 @@ from functools import cached_property, partial, wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 
-from conveyor import studies as study
 from conveyor.arguments.argument_types import check_arguments
 from conveyor.assessment import Assessment
 from conveyor.calculated_conveyor import CalculatedConveyor
@@ -20,6 +19,7 @@ from conveyor.checks import Check
 from conveyor.models import Conveyor
 from conveyor.pipeline import calculate
 from conveyor.remarks.result_warnings import analysis_warnings
+from conveyor.studies import CalculatedStudies, calculate_studies
 from conveyor.studies import duty as duty_study
 from conveyor.studies import input_ranges as range_study
 from conveyor.studies import load_cases as case_study
@@ -334,7 +334,7 @@ class UncertaintyStudy(range_study.CalculatedRanges):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Studies(study.CalculatedStudies):
+class Studies(CalculatedStudies):
     """Studies of one conveyor, each with its tables; None for those that the spec does not request."""
 
     states: StateStudy | None = None
@@ -414,7 +414,7 @@ def analyse_studies(
     >>> conveyor.analyse_studies(conveyor.load("examples/specs/shuttle.yaml"))
     Studies(states, flooded)
     """
-    made = study.calculate_studies(conveyor, given, progress=progress)
+    made = calculate_studies(conveyor, given, progress=progress)
     return Studies(
         states=None if made.states is None else as_results_class(made.states, StateStudy),
         cases=None if made.cases is None else as_results_class(made.cases, CaseStudy),
@@ -425,9 +425,7 @@ def analyse_studies(
     )
 
 
-def _scenario_results(
-    conveyor: Conveyor, made: study.CalculatedStudies, progress: Progress | None
-) -> CalculatedDynamics:
+def _scenario_results(conveyor: Conveyor, made: CalculatedStudies, progress: Progress | None) -> CalculatedDynamics:
     """Simulated scenarios of a spec, at the take-up setting of its loads."""
     from conveyor.dynamics.simulation import simulate_scenarios
 
