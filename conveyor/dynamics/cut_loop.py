@@ -160,7 +160,7 @@ class CutLoop:
             ]),
         )  # fmt: skip
 
-    def cells(self, step: float, *, filled: bool = True) -> Cells:
+    def cut_into_cells(self, step: float, *, filled: bool = True) -> Cells:
         """Cut into cells that a wave crosses in a step or little longer, with drives at cell ends.
 
         Parameters

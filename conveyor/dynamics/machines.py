@@ -265,7 +265,9 @@ def prepare_belts(setups: list[ScenarioSetup], step: Array | float) -> tuple[lis
     Cells are as long as a wave travels in a step [s], of all or of each.
     """
     steps = np.broadcast_to(step, len(setups)).tolist()
-    cells = [setup.loop.cells(one, filled=not setup.scene.running) for setup, one in zip(setups, steps, strict=True)]
+    cells = [
+        setup.loop.cut_into_cells(one, filled=not setup.scene.running) for setup, one in zip(setups, steps, strict=True)
+    ]
     most = max(one.at.size for one in cells)
 
     def filled(parts: list[Array], rest: float, size: int) -> Array:

@@ -24,7 +24,7 @@ from conveyor.studies import duty as duty_study
 from conveyor.studies import input_ranges as range_study
 from conveyor.studies import load_cases as case_study
 from conveyor.studies import states as state_study
-from conveyor.studies.loads import EveryLoad, Progress
+from conveyor.studies.loads import EveryLoad, StudyProgress
 from conveyor.units.unit_systems import report_system
 
 if TYPE_CHECKING:
@@ -385,7 +385,7 @@ study_ranges = results_function("study_ranges", range_study.analyse_ranges, Unce
 
 
 def analyse_studies(
-    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
+    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: StudyProgress | None = None
 ) -> Studies:
     """Calculate the load states and what the spec requests: load cases, duty, ranges, scenarios.
 
@@ -425,7 +425,9 @@ def analyse_studies(
     )
 
 
-def _scenario_results(conveyor: Conveyor, made: CalculatedStudies, progress: Progress | None) -> CalculatedDynamics:
+def _scenario_results(
+    conveyor: Conveyor, made: CalculatedStudies, progress: StudyProgress | None
+) -> CalculatedDynamics:
     """Simulated scenarios of a spec, at the take-up setting of its loads."""
     from conveyor.dynamics.simulation import simulate_scenarios
 

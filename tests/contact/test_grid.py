@@ -31,7 +31,7 @@ def test_complementarity(name):
     problem = SCENES[name]
     found = solve_grid(problem, 2048)
     turn = found.x / problem.rho
-    w = found.surface[np.round(found.x / (2.0 * np.pi / found.points)).astype(int) % found.points]
+    w = found.surface_displacement[np.round(found.x / (2.0 * np.pi / found.points)).astype(int) % found.points]
     gap = w - found.depth + 1.0 - np.sqrt(1.0 - turn**2)
     depth = abs(found.depth)
     assert found.pressure.min() >= 0.0
