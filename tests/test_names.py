@@ -54,7 +54,9 @@ def test_no_function_is_a_bare_participle():
 
 def test_functions_of_one_word_are_words_of_the_field():
     single = {name for _, name in module_functions() if "_" not in name}
-    assert single - ONE_WORD == set()
+    assert single - ONE_WORD == set(), (
+        "a second word says what is done or returned; commands, and words that everybody knows, stand in ONE_WORD"
+    )
     assert ONE_WORD - single == set(), "leave the list when the function goes"
 
 

@@ -257,7 +257,7 @@ def contact(**changes) -> RollContact:
         "spacing": 1.2,
         "cover_thickness": 6e-3,
         "speed": 5.0,
-        "rubber": rubber,
+        "series": rubber,
     } | changes
     return RollContact(**given)
 

@@ -42,7 +42,7 @@ def book(overland, tmp_path_factory):
 
 def test_sheets_and_charts(book):
     read = openpyxl.load_workbook(book)
-    assert read.sheetnames == SHEETS
+    assert read.sheetnames == SHEETS, "a new sheet stands in `excel.SHEETS` at its place, and in SHEETS here"
     charts = {sheet.title: len(sheet._charts) for sheet in read}
     assert charts["Summary"] == charts["Rubber"] == 2
     assert charts["Tension diagram"] == 1
