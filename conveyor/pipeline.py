@@ -1,7 +1,8 @@
 """The whole calculation.
 
-spec -> line in SI, loads of the rolls -> contacts of all rolls -> forces along the belt -> loop of tensions -> result
-        prepare                           solve                    assemble
+spec -> strands, loads of their rolls -> line in SI -------+-> contacts of all rolls -> forces along the belt -> loop of
+     -> compound at T -> cover -> cover at working strain --+      tensions, once more with design friction -> result
+        prepare                                                    solve                   assemble
 
 Many variants are calculated in one batch: their contacts are solved together; shared parts (a line, a rubber at a
 temperature, a cover at its working strain) are built once. On curves, and with a yielding belt, the tensions change the
