@@ -143,8 +143,10 @@ class CalculatedConveyor:
     @cached_property
     def drive_forces(self) -> tuple[float, float]:
         """Drive force at both ends of the friction band [N]."""
-        settled = self.balance.settled
-        low, high = map(settled.resistance, self.friction_band or (self.line.least_friction, self.line.design_friction))
+        equilibrium = self.balance.equilibrium
+        low, high = map(
+            equilibrium.resistance, self.friction_band or (self.line.least_friction, self.line.design_friction)
+        )
         return low, high
 
     @property

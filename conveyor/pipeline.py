@@ -173,7 +173,7 @@ class _IterationState:
     @classmethod
     def after(cls, result: CalculatedConveyor) -> _IterationState:
         """State for the step after a result."""
-        line, steady = result.line, result.balance.settled.steady
+        line, steady = result.line, result.balance.equilibrium.steady
         held = pull_per_width(line, steady, STRETCH_QUADRATURE[0]) if line.support == "belt" else None
         covers = result.contacts.covers
         return cls(loads_on_curves(line, steady), held, covers, result.balance, result.convergence)
@@ -259,7 +259,7 @@ def _tension_convergence(result: CalculatedConveyor, step: _IterationState) -> C
     """Convergence of coupled tensions against the step before; None in the first step."""
     if step.before is None:
         return None
-    before, now = step.before.settled.steady, result.balance.settled.steady
+    before, now = step.before.equilibrium.steady, result.balance.equilibrium.steady
     return next_convergence(step.convergence, before, now, result.line, result.balance.tensions.largest)
 
 

@@ -32,13 +32,13 @@ def belt_feeder(result: CalculatedConveyor) -> Iterator[Check]:
             why="the belt runs at {calculated} under the hopper, feeders at {required} or less: bulk slips on it, the "
             "hopper empties from one end and the belt wears; lower belt.speed and raise the gate",
         )  # fmt: skip
-    if (filled := result.balance.settled.filled) is not None:
+    if (filled := result.balance.equilibrium.filled) is not None:
         yield from _filled_checks(result, filled)
 
 
 def _filled_checks(result: CalculatedConveyor, filled: MotionState) -> Iterator[Check]:
     """No drive slips and the belt is strong enough while it breaks the bulk away under a filled hopper."""
-    line, belt, setting = result.line, result.line.belt, result.balance.settled.setting
+    line, belt, setting = result.line, result.line.belt, result.balance.equilibrium.setting
     for drive, side in zip(line.drives, filled.drives, strict=True):
         needed = grip_tension(side.force, friction=drive.friction, wrap_angle=drive.wrap_angle)
         name = escape_braces(drive.name)

@@ -79,7 +79,7 @@ def _alignment_checks(result: CalculatedConveyor, scale: WeighSection) -> Iterat
     stretch = line.stretches[scale.section]
     if scale.alignment is None or stretch.bulk_mass == 0.0:
         return
-    steady = result.balance.settled.steady
+    steady = result.balance.equilibrium.steady
     at = line.count + scale.section
     error = alignment_error(
         max(float(steady.starts[at]), float(steady.ends[at]), 0.0), height=scale.alignment, spacing=scale.spacing,

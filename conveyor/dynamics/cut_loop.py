@@ -110,7 +110,7 @@ class CutLoop:
         NoSolutionError
             The belt's stiffness or the run-up time of a winch is not known.
         """
-        line, settled = steady.line, steady.balance.settled
+        line, equilibrium = steady.line, steady.balance.equilibrium
         stiffness = belt_stiffness(line.belt)
         if stiffness is None:
             raise NoSolutionError(
@@ -122,7 +122,7 @@ class CutLoop:
                 "route.take_up.winch_run_up, the time in which it comes to its speed"
             )
         ways, count = line.loop.way, 2 * line.count
-        cut, after = _cut_position(line, behind=settled.take_up.behind)
+        cut, after = _cut_position(line, behind=equilibrium.take_up.behind)
         first = cut.boundary % count
         order = (first + np.arange(count)) % count
         friction, weight = _stretch_forces(steady)

@@ -67,7 +67,7 @@ class Balance:
         Forces along the belt, and those at single places: together every resistance.
     unit_main : float
         Main resistance that DIN 22101 gives for f = 1 [N].
-    settled : Equilibrium
+    equilibrium : Equilibrium
         Solved loop: every drive, the take-up, the states that decide its setting.
 
     Examples
@@ -79,7 +79,7 @@ class Balance:
 
     along: tuple[Force, ...]
     unit_main: float
-    settled: Equilibrium
+    equilibrium: Equilibrium
 
     def __repr__(self) -> str:
         power, tensions = self.power, self.tensions
@@ -93,17 +93,17 @@ class Balance:
     @property
     def line(self) -> Line:
         """The conveyor in SI."""
-        return self.settled.line
+        return self.equilibrium.line
 
     @property
     def layout(self) -> LoopLayout:
         """Layout of the loop."""
-        return self.settled.layout
+        return self.equilibrium.layout
 
     @property
     def singles(self) -> tuple[Force, ...]:
         """Forces at single places."""
-        return self.settled.singles
+        return self.equilibrium.singles
 
     @property
     def every(self) -> tuple[Force, ...]:
@@ -123,20 +123,20 @@ class Balance:
     @cached_property
     def tensions(self) -> Tensions:
         """Tensions at the drives and extremes of the loop."""
-        steady, unsteady = self.settled.steady, self.settled.unsteady
+        steady, unsteady = self.equilibrium.steady, self.equilibrium.unsteady
         return Tensions(
             tight=max(drive.tight for drive in steady.drives),
             slack=min(drive.slack for drive in steady.drives),
             tight_start=max(drive.tight for drive in unsteady.drives),
-            governed_by="take-up" if self.settled.given else self.settled.governed_by,
-            largest=self.settled.largest,
+            governed_by="take-up" if self.equilibrium.given else self.equilibrium.governed_by,
+            largest=self.equilibrium.largest,
             smallest=steady.smallest,
         )
 
     @cached_property
     def power(self) -> Power:
         """Power in steady running."""
-        line, force = self.line, self.settled.force
+        line, force = self.line, self.equilibrium.force
         mains = self.layout.mains(force)
         return Power(
             belt=belt_power(force, belt_speed=line.speed),
@@ -160,13 +160,13 @@ class Balance:
     @cached_property
     def tension_points(self) -> tuple[TensionPoint, ...]:
         """Tensions round the loop in steady running, from the head back to it."""
-        return tuple(_tension_points(self.settled, self.settled.steady))
+        return tuple(_tension_points(self.equilibrium, self.equilibrium.steady))
 
     def is_closed_at(self, kept: TakeUpSetting) -> bool:
         """True if the loop was closed with the take-up at this setting."""
-        settled = self.settled
-        stands = settled.layout.standing_on(behind=kept.behind) is settled.layout
-        return stands and settled.given and settled.setting == kept.tension
+        equilibrium = self.equilibrium
+        stands = equilibrium.layout.standing_on(behind=kept.behind) is equilibrium.layout
+        return stands and equilibrium.given and equilibrium.setting == kept.tension
 
     def designed_for(self, friction: float) -> Balance:
         """The loop with a friction to design for, over the computed one [-], the take-up at its setting."""
@@ -174,13 +174,13 @@ class Balance:
         if layout is self.layout:
             return self
         (found,) = raise_first_error(
-            close_loops([OpenLoop.of(layout, self.along, self.unit_main, self.settled.take_up)])
+            close_loops([OpenLoop.of(layout, self.along, self.unit_main, self.equilibrium.take_up)])
         )
         return found
 
     def held(self, setting: float) -> Balance:
         """The loop with the take-up at a setting [N]."""
-        (found,) = with_take_up_at([self], self.settled.take_up._replace(tension=setting))
+        (found,) = with_take_up_at([self], self.equilibrium.take_up._replace(tension=setting))
         return found
 
 
@@ -272,8 +272,8 @@ def close_loops(asked: Sequence[OpenLoop], serving: Sequence[bool] = ()) -> list
                 found[i] = refused[row]
                 continue
             made = one._replace(along=_with_flexure(one.along, closed.flexure[row]))
-            settled = Equilibrium(closed, row, (*one.layout.points, *_length_coefficient_forces(made)))
-            found[i] = Balance(made.along, one.unit_main, settled)
+            equilibrium = Equilibrium(closed, row, (*one.layout.points, *_length_coefficient_forces(made)))
+            found[i] = Balance(made.along, one.unit_main, equilibrium)
     return [found[i] for i in range(len(asked))]
 
 
@@ -291,11 +291,11 @@ def _length_coefficient_forces(one: OpenLoop) -> tuple[Force, ...]:
     return (length_coefficient_force(layout.line, layout.landing, one.along),) if layout.line.secondary == "C" else ()
 
 
-def _tension_points(settled: Equilibrium, state: MotionState) -> Iterator[TensionPoint]:
+def _tension_points(equilibrium: Equilibrium, state: MotionState) -> Iterator[TensionPoint]:
     """Tensions round the loop in a state, from the head back to it."""
-    line, shape = settled.line, settled.line.loop
+    line, shape = equilibrium.line, equilibrium.line.loop
     way: list[float] = shape.way.tolist()
-    last = settled.layout.boundaries[-1]
+    last = equilibrium.layout.boundaries[-1]
     met = sorted(zip(line.drives, state.drives, strict=True), key=lambda pair: pair[0].spot)
     at_head = [side for drive, side in met if drive.spot.boundary == last]
     head = "drive" if at_head else "head"

@@ -49,7 +49,7 @@ def hopper_states(balance: Balance, motions: StartAndStop) -> tuple[HopperState,
     NoSolutionError
         The tensions do not converge.
     """
-    filled = balance.settled.filled
+    filled = balance.equilibrium.filled
     if filled is None:
         return ()
     run_out = _without_hopper_loads(balance)
@@ -62,14 +62,14 @@ def hopper_states(balance: Balance, motions: StartAndStop) -> tuple[HopperState,
 
 
 def _design_motion(balance: Balance) -> MotionState:
-    return balance.settled.states.get(DESIGN, balance.settled.steady)
+    return balance.equilibrium.states.get(DESIGN, balance.equilibrium.steady)
 
 
 def _without_hopper_loads(balance: Balance) -> Balance:
     """The loop without vertical loads under its hoppers, the take-up at its setting."""
     changed = {(force.spot, force.name): force for force in hopper_forces(balance.line, lambda _: 0.0)}
     layout = balance.layout.scaled(lambda force: changed.get((force.spot, force.name), force))
-    asked = OpenLoop.of(layout, balance.along, balance.unit_main, balance.settled.take_up)
+    asked = OpenLoop.of(layout, balance.along, balance.unit_main, balance.equilibrium.take_up)
     return raise_first_error(close_loops([asked]))[0]
 
 

@@ -79,7 +79,7 @@ class SectionLoadings:
     def __init__(self, full: Balance, empty: Balance) -> None:
         self.line, self.full, self.empty = full.line, full, empty
         self.count = full.line.count
-        self.setting = full.settled.setting
+        self.setting = full.equilibrium.setting
         self.events = loop_events(full, empty)
         self.drive_at, self.stretch_at = self.events.drives, self.events.stretches
         self.rotating = np.array([drive.reduced_mass for drive in self.line.drives])
@@ -213,7 +213,7 @@ class SectionLoadings:
             self.resistance(0.0),
         )
         moving = np.zeros(self.count)
-        for force in self.full.settled.points:
+        for force in self.full.equilibrium.points:
             if force.certain and force.kind != "lift" and force.bulk is not None:
                 moving[force.bulk] += force.total
         return (certain, more_certain - moving), (base - certain, more - more_certain)

@@ -75,7 +75,9 @@ def loop_events(full: Balance, empty: Balance) -> LoopEvents:
                 more = (laden[0] - bare[0], laden[1] - bare[1], laden[2] - bare[2])
                 rows.append((*bare, *more, boundary - count))
     if layout.anchor is None:
-        held = int(drives[layout.station[-1]]) + 1 if full.settled.take_up.behind else int(drives[layout.station[0]])
+        held = (
+            int(drives[layout.station[-1]]) + 1 if full.equilibrium.take_up.behind else int(drives[layout.station[0]])
+        )
     columns = list(zip(*rows, strict=True))
     values = [np.array(column, dtype=float) for column in columns[:-1]]
     force, certain, mass, more_force, more_certain, more_mass = values
@@ -102,9 +104,9 @@ def _point_events(full: Balance, empty: Balance, j: int) -> Iterator[_EventRow]:
     layout = full.layout
     spot = layout.spots[j]
     always = math.fsum(
-        force for bend, force in zip(layout.bends, full.settled.bends, strict=True) if bend.pulley.spot == spot
+        force for bend, force in zip(layout.bends, full.equilibrium.bends, strict=True) if bend.pulley.spot == spot
     )
-    for force in full.settled.points:
+    for force in full.equilibrium.points:
         if force.spot != spot:
             continue
         if force.key == "secondary_by_length":

@@ -242,7 +242,7 @@ def _compared_scene(name: str, one: CalculatedConveyor, strands: frozenset[Stran
         motor_high=whole[1],
         own_low=own[0],
         own_high=own[1],
-        largest_tension=balance.settled.largest,
+        largest_tension=balance.equilibrium.largest,
         energy_per_tonne_km=power.energy_per_tonne_km,
         energy_per_year=None if year is None else year.energy,
         cost_per_year=None if year is None else year.cost,

@@ -361,7 +361,7 @@ _FIGURES: Final[dict[str, tuple[str, str, bool, Callable[[Load], float]]]] = {
         "required take-up tension",
         "force",
         True,
-        lambda r: r.found.balance.settled.needed,
+        lambda r: r.found.balance.equilibrium.needed,
     ),
     "largest_roll_load": ("maximum roll load", "force", True, lambda r: r.heaviest_roll[0]),
     "largest_indentation": (

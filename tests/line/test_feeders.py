@@ -60,7 +60,7 @@ def test_a_filled_hopper_takes_half_its_pull_off_the_slack_side_of_a_screw_take_
     filled, flow, run_out = found
     load = 850.0 * si(feeder.calculation.gravity) * 4.0 * 0.6**2
     pull = flow.balance.line.design_friction * (math.sin(math.radians(50.0)) + 0.3) * load
-    bends = [sum(one.balance.settled.bends) for one in (filled, flow, run_out)]
+    bends = [sum(one.balance.equilibrium.bends) for one in (filled, flow, run_out)]
     near = 2.0 * (max(bends) - min(bends))  # pulleys feel the tension
     assert filled.motion.force - flow.motion.force == pytest.approx(1.5 * pull, abs=near)
     assert flow.motion.force - run_out.motion.force == pytest.approx(0.5 * pull, abs=near)
@@ -109,9 +109,9 @@ def test_the_take_up_suits_the_start_under_the_filled_hopper(feeder, kind):
     grip = checks(found)["feeder_grip"]
     assert not grip.failed
     assert grip.calculated == pytest.approx(grip.required, rel=1e-9)
-    setting = found.balance.settled.setting
-    asked = found.balance.settled.conditions["grip, drive, hopper filled"]
-    assert found.balance.settled.governing == "grip, drive, hopper filled"
+    setting = found.balance.equilibrium.setting
+    asked = found.balance.equilibrium.conditions["grip, drive, hopper filled"]
+    assert found.balance.equilibrium.governing == "grip, drive, hopper filled"
     assert setting == pytest.approx(asked, rel=1e-12)
     slack = found.hopper_states[1].motion.drives[0].slack
     load = 850.0 * si(feeder.calculation.gravity) * 4.0 * 0.6**2
@@ -264,7 +264,7 @@ def test_skirts_under_the_hopper(feeder):
     assert "hopper_skirts" not in forces(one)
 
     def added(result):
-        design = result.motions.design_start.breakaway - result.balance.settled.design_force
+        design = result.motions.design_start.breakaway - result.balance.equilibrium.design_force
         return design / result.line.design_friction
 
     assert added(other) - added(one) == pytest.approx(unit * 2.0 * 1.5 * load, rel=1e-9)

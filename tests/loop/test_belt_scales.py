@@ -66,7 +66,7 @@ def test_the_error_is_the_belts_pull_out_of_line_over_the_bulk_weighed(spec):
     result, found = _checked(spec)
     line = result.line
     stretch = line.stretches[1]
-    steady = result.balance.settled.steady
+    steady = result.balance.equilibrium.steady
     tension = max(steady.starts[line.loop.stretches.index(stretch)], steady.ends[line.loop.stretches.index(stretch)])
     slope = math.asin(70.0 / 700.0)
     weighed = 2 * (line.flow / line.speed) * 4 * FOOT * line.gravity * math.cos(slope)

@@ -28,7 +28,7 @@ def loops():
 
 
 def figures(found):
-    settled = found.settled
+    settled = found.equilibrium
     states = [
         figure
         for state in settled.states.values()

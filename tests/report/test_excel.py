@@ -101,7 +101,7 @@ def test_every_axis_is_shown_and_every_reference_holds_numbers(book, overland):
     """Recent Excel hides an axis that does not say delete=0; a series over text or gaps shows nothing."""
     space = {"c": "http://schemas.openxmlformats.org/drawingml/2006/chart"}
     read = openpyxl.load_workbook(book)
-    count, states = 0, overland.balance.settled.states | overland.motions.states
+    count, states = 0, overland.balance.equilibrium.states | overland.motions.states
     with zipfile.ZipFile(book) as parts:
         for name in parts.namelist():
             if not name.startswith("xl/charts/chart"):

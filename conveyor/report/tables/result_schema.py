@@ -137,8 +137,9 @@ _POWER: Final = JsonObject(
         ).of(lambda source: asdict(source.own.balance.tensions)),
         "drives": JsonList(
             lambda source: [
-                (side, source.own.balance.layout.motor(side.force, drive.share))
-                for drive, side in zip(source.own.line.drives, source.own.balance.settled.steady.drives, strict=True)
+                (side, balance.layout.motor(side.force, drive.share))
+                for balance in [source.own.balance]
+                for drive, side in zip(balance.line.drives, balance.equilibrium.steady.drives, strict=True)
             ],
             item=JsonObject(
                 lambda pair: pair,
