@@ -38,7 +38,7 @@ def test_complementarity(name):
     assert gap.min() >= -1e-10 * depth
     assert np.abs(gap[found.pressure > 0.0]).max() <= 1e-10 * depth
     assert found.pressure.sum() / found.points == pytest.approx(problem.pressure, rel=1e-12)
-    assert abs(found.surface.mean()) <= 1e-12 * depth
+    assert abs(found.surface_displacement.mean()) <= 1e-12 * depth
 
 
 MESHES = (240, 248, 256, 264, 272)  # an edge falls anywhere between two nodes
