@@ -169,7 +169,7 @@ class Analysis(CalculatedConveyor):
         Raises
         ------
         InputError
-            The path cannot be written, or the system is neither SI nor US.
+            The path cannot be written, or the system is none of these.
         """
         from conveyor.report.excel import write_workbook
 
@@ -222,7 +222,7 @@ class Analysis(CalculatedConveyor):
         Raises
         ------
         InputError
-            The path cannot be written, or the system is neither SI nor US.
+            The path cannot be written, or the system is none of these.
         """
         from conveyor.report.html import write_page
 
