@@ -179,7 +179,7 @@ class Preparation:
         def made() -> PreparedLine:
             """Build the line; specs of equal belt, load and idlers share strands.
 
-            `without_strands` is shared by specs that differ in idlers alone; it holds strands of the first.
+            `without_strands` has the strands of the first spec that it was made for: idlers do not matter to the rest.
             """
             sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
             each = []
