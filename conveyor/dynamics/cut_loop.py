@@ -127,9 +127,8 @@ class CutLoop:
         order = (first + np.arange(count)) % count
         friction, weight = _stretch_forces(steady)
         drags = (np.asarray(force.newtons) for force in steady.balance.along if force.key == "idler_rotation")
-        stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * next(
-            drags, line.roll_drag_forces
-        )  # no own part of classical methods
+        drag = next(drags, line.roll_drag_forces)  # no own part of classical methods
+        stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * drag
         whole = float(ways[-1])
 
         def distance(spot: LoopPosition) -> float:

@@ -312,9 +312,8 @@ def frictions(curves: Sequence[LoadCurve], pressures: Sequence[ArrayLike]) -> li
         t = _invert_loads(log_p, [np.log(given[i]).ravel() for i in members])
         widths = np.array([(c._centre - math.log(c.problem.rho), c._half) for c in chosen])  # noqa: SLF001
         centre, half = np.repeat(widths, sizes, axis=0).T
-        friction = chebyshev.chebval(t, friction_columns.repeat(sizes, axis=1), tensor=False) * np.exp(
-            centre + half * t
-        )
+        friction = chebyshev.chebval(t, friction_columns.repeat(sizes, axis=1), tensor=False)
+        friction *= np.exp(centre + half * t)
         parts = np.split(friction, np.cumsum(sizes)[:-1])
         found.update((i, part.reshape(given[i].shape)) for i, part in zip(members, parts, strict=True))
     return [found[i] for i in range(len(curves))]
