@@ -114,7 +114,7 @@ def means(
 def shares(spec: Conveyor) -> bool:
     """Whether flexure is a share of the main resistance, and follows the other factors."""
     (found,) = powers(spec, [MeasuredRun(power="1 kW", at="motor shaft", flow=spec.material.flow)])
-    return found.fixed.flexure is None
+    return found.rubber_free.flexure is None
 
 
 if __name__ == "__main__":

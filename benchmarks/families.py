@@ -212,7 +212,7 @@ def written(measured: np.ndarray, header: str, *, sets: bool) -> str:
 
 
 def friction(series: list[PronySeries]) -> np.ndarray:
-    problems = [to_problem(replace(CONTACT, rubber=one), LINE_LOAD) for one in series]
+    problems = [to_problem(replace(CONTACT, series=one), LINE_LOAD) for one in series]
     return np.array([found.friction for found in solve_many(problems, rtol=1e-4, throw=True)])
 
 

@@ -49,7 +49,7 @@ def covers() -> list[ContactProblem]:
             except ConveyorError:
                 continue
             for thickness, speed in ((0.004, 2.0), (0.004, 6.0), (0.01, 2.0), (0.01, 6.0)):
-                roll = RollContact(radius=0.0795, spacing=1.2, cover_thickness=thickness, speed=speed, rubber=rubber)
+                roll = RollContact(radius=0.0795, spacing=1.2, cover_thickness=thickness, speed=speed, series=rubber)
                 found += [to_problem(roll, load) for load in (250.0, 4500.0)]
     return found
 

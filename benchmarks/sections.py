@@ -64,7 +64,7 @@ def main() -> None:
         found = calculate(made)
 
         def loop(found: Balance = found.balance, unit_main: float = found.balance.unit_main) -> float:
-            return close_loop(found.frame, found.along, unit_main).tensions.tight
+            return close_loop(found.layout, found.along, unit_main).tensions.tight
 
         each = fastest(loop)
         print(f"{count:8d} {whole * 1e3:24.1f} {each * 1e3:17.3f} {CASES * each * 1e3:15.1f}")

@@ -58,7 +58,7 @@ def reference() -> float:
 def rate(campaign: running.ParametricStudy) -> None:
     """Batches of one process, the least of three goes at each: whatever else runs makes them longer only."""
     with tempfile.TemporaryDirectory() as folder, running.ResultStore(Path(folder) / "a") as none:
-        listed, count = campaign.listed.points(), campaign.listed.count
+        listed, count = campaign.require_list_plan().points(), campaign.require_list_plan().count
         every = [list(batch.new.values()) for batch in running.point_batches(campaign, none, listed, count)]
     unit, least = reference(), [float("inf")] * len(every)
     for _ in range(3):
@@ -77,7 +77,7 @@ def rate(campaign: running.ParametricStudy) -> None:
 
 def scaled(campaign: running.ParametricStudy, workers: int) -> None:
     """Wall and processor time of a whole run, processes against one, by turns; start-up of the processes is in it."""
-    print(f"{campaign.listed.count} points", flush=True)
+    print(f"{campaign.require_list_plan().count} points", flush=True)
     for turn in range(3):
         wall, processor = [], []
         for many in (1, workers):

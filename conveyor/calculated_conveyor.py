@@ -135,7 +135,7 @@ class CalculatedConveyor:
     temperature: float
     contacts: Contacts
     balance: Balance
-    fixed: RubberFreeForces
+    rubber_free: RubberFreeForces
     convergence: Convergence | None = None
     friction_band: tuple[float, float] | None = None
     start_of_motors: float | None = None
@@ -143,14 +143,16 @@ class CalculatedConveyor:
     @cached_property
     def drive_forces(self) -> tuple[float, float]:
         """Drive force at both ends of the friction band [N]."""
-        settled = self.balance.settled
-        low, high = map(settled.resistance, self.friction_band or (self.line.least_friction, self.line.design_friction))
+        equilibrium = self.balance.equilibrium
+        low, high = map(
+            equilibrium.resistance, self.friction_band or (self.line.least_friction, self.line.design_friction)
+        )
         return low, high
 
     @property
     def governing_motor_power(self) -> float:
         """Motor power at the less favourable end of the friction band [W]; negative: generating."""
-        least, most = map(self.balance.frame.motor, self.drive_forces)
+        least, most = map(self.balance.layout.motor, self.drive_forces)
         return least if abs(least) > abs(most) else most
 
     @property
@@ -166,7 +168,7 @@ class CalculatedConveyor:
         main = [key for key, force in along.items() if force.kind == "main"]
         results = []
         for stretch, rolls, unit_main, *newtons in zip(
-            self.line.stretches, self.contacts.rolls, self.fixed.unit_main.tolist(), *columns, strict=True
+            self.line.stretches, self.contacts.rolls, self.rubber_free.unit_main.tolist(), *columns, strict=True
         ):
             forces = dict(zip(along, newtons, strict=True))
             total = math.fsum(forces[key] for key in main)

@@ -343,11 +343,11 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
     Rolls keep their loads, and pulleys their wraps but for those that scale with a default of their own; what the
     tensions add to both is of second order.
     """
-    motor, settled = result.balance.frame.motor, result.balance.settled
+    motor, equilibrium = result.balance.layout.motor, result.balance.equilibrium
     changes = list(_force_changes(result))
     effects = []
     for assumed, ends, forces in changes:
-        low, high = (motor(settled.force + change) for change in forces)
+        low, high = (motor(equilibrium.force + change) for change in forces)
         effects.append(
             DefaultEffect(
                 assumed.what, f"x {ends[0]:.3g}", "x 1", f"x {ends[1]:.3g}", low, high,
@@ -355,18 +355,18 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
             )
         )  # fmt: skip
     effects.sort(key=lambda effect: -effect.swing)
-    friction = _combined_band(settled, [forces for _, _, forces in changes])
-    low, high = sorted(map(motor, map(settled.resistance, friction)))
+    friction = _combined_band(equilibrium, [forces for _, _, forces in changes])
+    low, high = sorted(map(motor, map(equilibrium.resistance, friction)))
     return PowerRange(
-        motor(settled.force), low, high, tuple(effects), friction, *_power_to_design_for(result),
+        motor(equilibrium.force), low, high, tuple(effects), friction, *_power_to_design_for(result),
         tuple(_untested_rubbers(result)),
     )  # fmt: skip
 
 
 def _power_to_design_for(result: CalculatedConveyor) -> tuple[float, float, str]:
     """Friction over the computed one [-] with which the motors give or hold most, that power [W] and its source."""
-    line, settled, motor = result.line, result.balance.settled, result.balance.frame.motor
-    most, least = motor(settled.design_force), motor(settled.least_force)
+    line, equilibrium, motor = result.line, result.balance.equilibrium, result.balance.layout.motor
+    most, least = motor(equilibrium.design_force), motor(equilibrium.least_force)
     if abs(least) > abs(most):
         return line.least_friction, least, "the least that is certain"
     given = result.conveyor.drive.design_friction is not None
@@ -378,7 +378,7 @@ def friction_band(result: CalculatedConveyor) -> tuple[float, float]:
 
     Bands of single defaults are independent: the changes of the drive force add as the root of their squares.
     """
-    return _combined_band(result.balance.settled, [forces for _, _, forces in _force_changes(result)])
+    return _combined_band(result.balance.equilibrium, [forces for _, _, forces in _force_changes(result)])
 
 
 def close_design_loops(
@@ -394,7 +394,7 @@ def close_design_loops(
         Their loops.
     """
     asked = [
-        loop._replace(frame=loop.frame.designed_for(friction_band(one)[1]))
+        loop._replace(layout=loop.layout.designed_for(friction_band(one)[1]))
         for one, loop in zip(results, loops, strict=True)
     ]
     return [
@@ -403,9 +403,9 @@ def close_design_loops(
     ]
 
 
-def _combined_band(settled: Equilibrium, changes: Iterable[tuple[float, float]]) -> tuple[float, float]:
+def _combined_band(equilibrium: Equilibrium, changes: Iterable[tuple[float, float]]) -> tuple[float, float]:
     """Band of the friction over the computed one [-] from changes of the drive force at both ends [N]."""
-    rubbing = settled.force - settled.resistance(0.0)
+    rubbing = equilibrium.force - equilibrium.resistance(0.0)
     if rubbing <= 0.0:
         return 1.0, 1.0
     low, high = ends_of_band(0.0, changes)

@@ -111,7 +111,7 @@ def strand_rubber_free_forces(strand: OneStrand) -> RubberFreeForces:
 
 def forces_along_belt(
     line: Line,
-    fixed: RubberFreeForces,
+    rubber_free: RubberFreeForces,
     indentation: Array,
     *,
     roll_drag: float = 1.0,
@@ -123,7 +123,7 @@ def forces_along_belt(
     ----------
     line : Line
         The conveyor.
-    fixed : RubberFreeForces
+    rubber_free : RubberFreeForces
         Forces of `rubber_free_forces`.
     indentation : ndarray, shape (2n,)
         Indentation resistance of every stretch [N]; not used by a classical method.
@@ -132,24 +132,24 @@ def forces_along_belt(
     calibration : Calibration, optional
         Factors on indentation, rotation, flexure and misalignment; 1 without.
     """
-    lift = Force("lift", "lift force", "lift", fixed.lift, "ISO 5048, F_St", certain=True)
+    lift = Force("lift", "lift force", "lift", rubber_free.lift, "ISO 5048, F_St", certain=True)
     if line.method == "cema classic" and line.cema is not None:
-        return (*cema_forces_along(line, line.cema), *_guidance_forces(fixed), lift)
-    tilt = Force("tilt", "idler tilt", "special", fixed.tilt, "ISO 5048, F_e")
-    beside = (tilt, *bed_forces(line), *_guidance_forces(fixed), lift)
+        return (*cema_forces_along(line, line.cema), *_guidance_forces(rubber_free), lift)
+    tilt = Force("tilt", "idler tilt", "special", rubber_free.tilt, "ISO 5048, F_e")
+    beside = (tilt, *bed_forces(line), *_guidance_forces(rubber_free), lift)
     if line.method != "viscoelastic":
-        return (factor_main_force(line, fixed.unit_main), *beside)
+        return (factor_main_force(line, rubber_free.unit_main), *beside)
     factors = calibration or Calibration()
     indentation = factors.indentation * indentation
-    rotation = factors.idler_rotation * roll_drag * line.rotation
-    flexure, share = fixed.flexure, line.flexure_share or 0.0
+    rotation = factors.idler_rotation * roll_drag * line.roll_drag_forces
+    flexure, share = rubber_free.flexure, line.flexure_share or 0.0
     if flexure is None:
         flexure = np.array([
             flexure_resistance(other, share=share) for other in (indentation + rotation).tolist()
         ])  # fmt: skip
     flexure = factors.flexure * flexure
     slackens = flexure if line.flexes_by_sag else None
-    misalignment = factors.misalignment * fixed.misalignment
+    misalignment = factors.misalignment * rubber_free.misalignment
     return (
         Force("indentation", "indentation", "main", indentation, _CONTACT_SOURCE),
         Force("idler_rotation", "idler rotation", "main", rotation, "roll drag x number of rolls"),
@@ -210,10 +210,12 @@ def _guidance_force(stretch: Stretch, _gravity: float) -> float:
     return 0.0 if stretch.turn is None else stretch.sets * stretch.turn.guidance()
 
 
-def _guidance_forces(fixed: RubberFreeForces) -> Iterator[Force]:
-    if fixed.guidance is not None:
+def _guidance_forces(rubber_free: RubberFreeForces) -> Iterator[Force]:
+    if rubber_free.guidance is not None:
         law = "guiding friction x sine of the skew, derived"
-        yield Force("guidance", "skewed idlers in horizontal curves", "special", fixed.guidance, law, short="guidance")
+        yield Force(
+            "guidance", "skewed idlers in horizontal curves", "special", rubber_free.guidance, law, short="guidance"
+        )
 
 
 def _lift_force(stretch: Stretch, gravity: float) -> float:

@@ -1,7 +1,8 @@
 """The whole calculation.
 
-spec -> line in SI, loads of the rolls -> contacts of all rolls -> forces along the belt -> loop of tensions -> result
-        prepare                           solve                    assemble
+spec -> strands, loads of their rolls -> line in SI -------+-> contacts of all rolls -> forces along the belt -> loop of
+     -> compound at T -> cover -> cover at working strain --+      tensions, once more with design friction -> result
+        prepare                                                    solve                   assemble
 
 Many variants are calculated in one batch: their contacts are solved together; shared parts (a line, a rubber at a
 temperature, a cover at its working strain) are built once. On curves, and with a yielding belt, the tensions change the
@@ -94,7 +95,7 @@ def calculate_many(
     rtol : float, optional
         Relative tolerance of the contacts [-]; by default that of each spec.
     progress : callable, optional
-        Called as variants are loaded, and when they are solved; a variant counts half for each.
+        Called as variants are prepared, and when they are solved; a variant counts half for each.
     one_take_up : callable, optional
         Give all variants one setting of the take-up, the least that serves the variants for which this is true. By
         default the least of each. A setting of the spec is kept.
@@ -172,7 +173,7 @@ class _IterationState:
     @classmethod
     def after(cls, result: CalculatedConveyor) -> _IterationState:
         """State for the step after a result."""
-        line, steady = result.line, result.balance.settled.steady
+        line, steady = result.line, result.balance.equilibrium.steady
         held = pull_per_width(line, steady, STRETCH_QUADRATURE[0]) if line.support == "belt" else None
         covers = result.contacts.covers
         return cls(loads_on_curves(line, steady), held, covers, result.balance, result.convergence)
@@ -180,7 +181,7 @@ class _IterationState:
 
 def _solve_contacts(
     shared: Preparation,
-    loaded: Mapping[int, PreparedLine],
+    prepared: Mapping[int, PreparedLine],
     steps: Mapping[int, _IterationState],
     rtol: float | None,
 ) -> dict[int, Contacts | NoAnswer]:
@@ -188,15 +189,15 @@ def _solve_contacts(
 
     A yielding belt is first calculated on a rigid carcass, as its tensions are unknown.
     """
-    running = shared.soften(loaded, {i: steps[i].covers for i in loaded})
-    covers = {i: one for i, one in running.items() if isinstance(one, Mapping)}
-    solved = solve_contacts([loaded[i].line for i in covers], list(covers.values()), rtol, shared.curves)
-    refused = {i: one for i, one in running.items() if not isinstance(one, Mapping)}
+    softened = shared.soften(prepared, {i: steps[i].covers for i in prepared})
+    covers = {i: one for i, one in softened.items() if isinstance(one, Mapping)}
+    solved = solve_contacts([prepared[i].line for i in covers], list(covers.values()), rtol, shared.curves)
+    refused = {i: one for i, one in softened.items() if not isinstance(one, Mapping)}
     contacts: dict[int, Contacts | NoAnswer] = {**refused, **dict(zip(covers, solved, strict=True))}
-    tight = {i: one for i in loaded if (one := steps[i].pulls) is not None}
+    tight = {i: one for i in prepared if (one := steps[i].pulls) is not None}
     held = {i: fast for i in tight if isinstance(fast := contacts[i], Contacts)}
     if held:
-        rtols = [loaded[i].line.rtol if rtol is None else rtol for i in held]
+        rtols = [prepared[i].line.rtol if rtol is None else rtol for i in held]
         belts = solve_belt_contacts(list(held.values()), [tight[i] for i in held], rtols, shared.tensioned)
         contacts |= dict(zip(held, belts, strict=True))
     return contacts
@@ -204,7 +205,7 @@ def _solve_contacts(
 
 def _assemble_results(
     variants: Sequence[Variant],
-    loaded: Mapping[int, PreparedLine],
+    prepared: Mapping[int, PreparedLine],
     contacts: Mapping[int, Contacts | NoAnswer],
 ) -> dict[int, CalculatedConveyor | NoAnswer]:
     """Assemble the forces along the belts, and close the loops in one batch."""
@@ -213,7 +214,7 @@ def _assemble_results(
     for i, one in contacts.items():
         try:
             if isinstance(one, Contacts):
-                open_loops[i] = one, _open_loop(variants[i], loaded[i], one)
+                open_loops[i] = one, _open_loop(variants[i], prepared[i], one)
             else:
                 found[i] = one
         except InputError as error:
@@ -224,7 +225,7 @@ def _assemble_results(
         found[i] = (
             made
             if isinstance(made, NoSolutionError)
-            else CalculatedConveyor(at.conveyor, at.covers_at, rolls, made, loaded[i].fixed)
+            else CalculatedConveyor(at.conveyor, at.covers_at, rolls, made, prepared[i].rubber_free)
         )
     own = {
         i: one
@@ -238,33 +239,33 @@ def _assemble_results(
     return found | dict(zip(own, designed, strict=True))
 
 
-def _open_loop(variant: Variant, loaded: PreparedLine, contacts: Contacts) -> OpenLoop:
+def _open_loop(variant: Variant, prepared: PreparedLine, contacts: Contacts) -> OpenLoop:
     """Loop with the forces along the belt, to be closed."""
-    factors = np.repeat([variant.indentation_factors.get(strand, 1.0) for strand in STRANDS], loaded.line.count)
+    factors = np.repeat([variant.indentation_factors.get(strand, 1.0) for strand in STRANDS], prepared.line.count)
     along = forces_along_belt(
-        loaded.line,
-        loaded.fixed,
+        prepared.line,
+        prepared.rubber_free,
         factors * contacts.indentation,
         roll_drag=variant.roll_drag,
         calibration=variant.conveyor.calculation.calibration,
     )
-    frame = loaded.frame
+    layout = prepared.layout
     if variant.design_friction is not None and variant.conveyor.drive.design_friction is None:
-        frame = frame.designed_for(variant.design_friction)
-    return OpenLoop.of(frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
+        layout = layout.designed_for(variant.design_friction)
+    return OpenLoop.of(layout, along, float(prepared.rubber_free.unit_main.sum()), variant.take_up)
 
 
 def _tension_convergence(result: CalculatedConveyor, step: _IterationState) -> Convergence | None:
     """Convergence of coupled tensions against the step before; None in the first step."""
     if step.before is None:
         return None
-    before, now = step.before.settled.steady, result.balance.settled.steady
+    before, now = step.before.equilibrium.steady, result.balance.equilibrium.steady
     return next_convergence(step.convergence, before, now, result.line, result.balance.tensions.largest)
 
 
 def _is_settled(result: CalculatedConveyor) -> bool:
     """True if tensions and roll loads have converged."""
-    return result.convergence is not None and result.convergence.settled(result.line.rtol)
+    return result.convergence is not None and result.convergence.has_converged(result.line.rtol)
 
 
 class _ProgressReporter:

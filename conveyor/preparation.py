@@ -43,10 +43,10 @@ class PreparedLine:
     """
 
     line: Line
-    frame: LoopLayout
-    fixed: RubberFreeForces
+    layout: LoopLayout
+    rubber_free: RubberFreeForces
     has_curve_loads: bool
-    works: Mapping[Strand, CoverLoading] = field(default_factory=dict)
+    cover_loadings: Mapping[Strand, CoverLoading] = field(default_factory=dict)
     uses_rolling_tests: bool = False
 
 
@@ -62,7 +62,7 @@ class Preparation:
     ) -> None:
         kept.begin()
         self._kept, self._own, self._rtol = kept, ReuseCache(), rtol
-        self._running: dict[CoverLoading, CoverState | NoAnswer] = {}
+        self._softened: dict[CoverLoading, CoverState | NoAnswer] = {}
         self.curves: LoadCurveCache = kept.curves
         self.tensioned: TensionedCurveCache = {}
         interpolates = rtol is not None and rtol >= STRAIN_INTERPOLATION_RTOL
@@ -75,7 +75,7 @@ class Preparation:
         for strand, compound in compounds_by_strand(known.conveyor).items():
             cover = known.contacts.covers[strand]
             work = CoverLoading(known.line, strand, cover, compound, known.temperature)
-            self._running[self._kept.first(work, "alike", (compound,), work.scene)] = cover
+            self._softened[self._kept.first(work, "alike", (compound,), work.key)] = cover
 
     def solve_test_factors(self, variants: Iterable[Variant]) -> None:
         """Solve the unknown test factors of all compounds side by side."""
@@ -102,7 +102,7 @@ class Preparation:
         )
         for i, one in prepared.items():
             try:
-                yield i, self._in_air(asked[i][0], one) if isinstance(one, PreparedLine) else one
+                yield i, self._with_drags_and_covers(asked[i][0], one) if isinstance(one, PreparedLine) else one
             except (NoSolutionError, RangeError, InputError) as error:
                 yield i, error
 
@@ -115,30 +115,32 @@ class Preparation:
         new = {key: pair for key, pair in asked.items() if key not in drags}
         drags.update(zip(new, roll_drags_many(list(new.values())), strict=True))
 
-    def _in_air(self, variant: Variant, prepared: PreparedLine) -> PreparedLine:
+    def _with_drags_and_covers(self, variant: Variant, prepared: PreparedLine) -> PreparedLine:
         """Line with the drags of its rolls and its covers at small strain."""
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
         rubber = cover_series(given, lambda one: self._kept.once(partial(one.series, at), "series", (one,), (at,)))
         gives = given.calculation.support == "belt"
         acted = self._own if prepared.has_curve_loads else self._kept
-        running = acted.once(
+        with_drags = acted.once(
             partial(self._with_roll_drags, prepared, _drag_air_temperature(given)),
             "in air",
             (prepared,),
             (_drag_air_temperature(given),),
         )
-        rtol = running.line.rtol if self._rtol is None else self._rtol
-        works = {
+        rtol = with_drags.line.rtol if self._rtol is None else self._rtol
+        cover_loadings = {
             strand: acted.once(
-                partial(self._cover_loading, CoverLoading(running.line, strand, cover, compounds[strand], at), rtol),
+                partial(self._cover_loading, CoverLoading(with_drags.line, strand, cover, compounds[strand], at), rtol),
                 "work",
-                (running.line, cover.rubber, compounds[strand], *((cover.other[1],) if gives else ())),
+                (with_drags.line, cover.series, compounds[strand], *((cover.opposite_cover[1],) if gives else ())),
                 (strand, at, rtol),
             )
             for strand, cover in covers_by_strand(given, rubber).items()
         }
-        return replace(running, works=works, uses_rolling_tests=_uses_rolling_tests(given.calculation))
+        return replace(
+            with_drags, cover_loadings=cover_loadings, uses_rolling_tests=_uses_rolling_tests(given.calculation)
+        )
 
     def _with_roll_drags(self, prepared: PreparedLine, air: float | None) -> PreparedLine:
         """Line with the drags of its rolls in air of a temperature [K]."""
@@ -149,22 +151,22 @@ class Preparation:
                 raise one
             drags += one
         line = replace(prepared.line, roll_drags=tuple(drags))
-        return replace(prepared, line=line, frame=prepared.frame.of(line))
+        return replace(prepared, line=line, layout=prepared.layout.of(line))
 
     def _cover_loading(self, work: CoverLoading, rtol: float) -> CoverLoading:
         """First strand that loads its cover identically, with unresolved relaxation terms merged."""
         merged = self._merge_unresolved_terms(work, rtol)
-        return self._kept.first(merged, "alike", (work.compound,), merged.scene)
+        return self._kept.first(merged, "alike", (work.compound,), merged.key)
 
     def _merge_unresolved_terms(self, work: CoverLoading, rtol: float) -> CoverLoading:
         """Merge relaxation terms that the rolls of a strand cannot resolve."""
         times = resolved_time_range(work, rtol)
         if times is None:
             return work
-        rubber, (fastest, slowest) = work.cover.rubber, times
-        cut = tuple(rubber.times.searchsorted(times).tolist())
-        less = self._kept.once(lambda: rubber.merged(fastest=fastest, slowest=slowest), "merged", (rubber,), cut)
-        return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * TERM_MERGE_SHARE * rtol))
+        series, (fastest, slowest) = work.cover.series, times
+        cut = tuple(series.times.searchsorted(times).tolist())
+        less = self._kept.once(lambda: series.merged(fastest=fastest, slowest=slowest), "merged", (series,), cut)
+        return replace(work, cover=replace(work.cover, series=less, merging_error=2.0 * TERM_MERGE_SHARE * rtol))
 
     def _line_without_drag(self, given: Conveyor, on_curves: CurveLoads) -> PreparedLine:
         """Line of a spec without roll drags."""
@@ -172,54 +174,65 @@ class Preparation:
         kept = self._own if acted else self._kept
         others = (given.material, given.route, given.drive, given.calculation, given.report)
         body, wind, curves = given.belt.body_fingerprint, given.ambient.wind_speed, vars(on_curves).values()
-        scene = (body, wind, part_key(given.site), *map(_item_tuple, curves))
+        key = (body, wind, part_key(given.site), *map(_item_tuple, curves))
 
         def made() -> PreparedLine:
-            """Build the line; specs of equal belt, load and idlers share strands."""
+            """Build the line; specs of equal belt, load and idlers share strands.
+
+            `without_strands` has the strands of the first spec that it was made for: idlers do not matter to the rest.
+            """
             sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
             each = []
             for strand, own in zip(STRANDS, sets, strict=True):
                 parts = (own, given.material, given.route, given.calculation)
                 laid = partial(_strand_and_forces, given, sections, strand, on_curves)
-                each.append(kept.once(laid, "strand", parts, (strand, *scene)))
+                each.append(kept.once(laid, "strand", parts, (strand, *key)))
             (carry, up), (back, down) = each
             strands = Strands(sections, (carry, back))
-            like = self._kept.once(lambda: Line.of(given, strands, [(), ()]), "like", others, (body, wind))
-            return _prepare_line(replace(like, strands=strands), (up, down), acted)
+            without_strands = self._kept.once(
+                lambda: Line.of(given, strands, [(), ()]), "without strands", others, (body, wind)
+            )
+            return _prepare_line(replace(without_strands, strands=strands), (up, down), acted)
 
         sets = given.idlers.carry, given.idlers.return_
-        return kept.once(made, "line", (*sets, *others), scene)
+        return kept.once(made, "line", (*sets, *others), key)
 
-    def soften(self, loaded: Mapping[int, PreparedLine], before: Mapping[int, Covers]) -> dict[int, Covers | NoAnswer]:
+    def soften(
+        self, prepared: Mapping[int, PreparedLine], before: Mapping[int, Covers]
+    ) -> dict[int, Covers | NoAnswer]:
         """Take covers of many lines to their working strain; identical ones are one object and share load curves.
 
         A cover of the step before is kept while its line load is unchanged.
         """
         for i, kept in before.items():
             for strand, cover in kept.items():
-                if loaded[i].works[strand].keeps_strain_of(cover):
-                    self._running.setdefault(loaded[i].works[strand], cover)
-        shared = {work for one in loaded.values() if not one.has_curve_loads for work in one.works.values()}
-        works = dict.fromkeys(work for one in loaded.values() for work in one.works.values())
-        asked = [work for work in works if work not in self._running]
+                if prepared[i].cover_loadings[strand].keeps_strain_of(cover):
+                    self._softened.setdefault(prepared[i].cover_loadings[strand], cover)
+        shared = {work for one in prepared.values() if not one.has_curve_loads for work in one.cover_loadings.values()}
+        cover_loadings = dict.fromkeys(work for one in prepared.values() for work in one.cover_loadings.values())
+        asked = [work for work in cover_loadings if work not in self._softened]
         known = self._kept.covers
-        self._running |= {work: one for work in asked if (one := known.pop(work, None)) is not None}
-        new = [work for work in asked if work not in self._running]
-        runs = [[loaded[i].works[strand] for i in run if i in loaded] for run in self._runs for strand in STRANDS]
+        self._softened |= {work: one for work in asked if (one := known.pop(work, None)) is not None}
+        new = [work for work in asked if work not in self._softened]
+        runs = [
+            [prepared[i].cover_loadings[strand] for i in run if i in prepared]
+            for run in self._runs
+            for strand in STRANDS
+        ]
         unknown = set(new)
         covers = softened_covers(new, [run for run in runs if unknown.issuperset(run)])
-        self._running.update(zip(new, covers, strict=True))
-        known |= {work: self._running[work] for work in asked if work in shared}
+        self._softened.update(zip(new, covers, strict=True))
+        known |= {work: self._softened[work] for work in asked if work in shared}
         return {
-            i: _all_or_error({strand: self._with_test_factor(one, strand) for strand in one.works})
-            for i, one in loaded.items()
+            i: _all_or_error({strand: self._with_test_factor(one, strand) for strand in one.cover_loadings})
+            for i, one in prepared.items()
         }
 
-    def _with_test_factor(self, loaded: PreparedLine, strand: Strand) -> CoverState | NoAnswer:
+    def _with_test_factor(self, prepared: PreparedLine, strand: Strand) -> CoverState | NoAnswer:
         """Cover of a strand with the test factor of its compound, if any."""
-        work = loaded.works[strand]
-        cover = self._running[work]
-        tested, softened = loaded.uses_rolling_tests, loaded.line.softened
+        work = prepared.cover_loadings[strand]
+        cover = self._softened[work]
+        tested, softened = prepared.uses_rolling_tests, prepared.line.softened
         tests = TEST_FACTORS.of(work.compound, softened=softened) if tested else None
         if not isinstance(cover, CoverState) or isinstance(tests, NoAnswer):
             return tests if isinstance(tests, NoAnswer) else cover
@@ -251,9 +264,9 @@ def _strand_and_forces(
     return made, strand_rubber_free_forces(made)
 
 
-def _prepare_line(line: Line, fixed: Sequence[RubberFreeForces], acted: bool) -> PreparedLine:
+def _prepare_line(line: Line, rubber_free: Sequence[RubberFreeForces], acted: bool) -> PreparedLine:
     """Prepare a line without roll drags and loaded covers."""
-    carry, back = fixed
+    carry, back = rubber_free
     return PreparedLine(line, LoopLayout(line), carry.joined(back), acted)
 
 

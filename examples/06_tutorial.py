@@ -112,7 +112,7 @@ contact = RollContact(
     spacing=1.5,  # m
     cover_thickness=0.005,  # m
     speed=5.0,  # m/s
-    rubber=shelf.compound("s100").series(293.15),  # K
+    series=shelf.compound("s100").series(293.15),  # K
     poisson=0.5,
     support="confined",
 )

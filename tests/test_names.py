@@ -8,6 +8,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from conveyor.units.unit_systems import SYSTEMS
+
 ROOT = Path(__file__).parent.parent
 FILES = sorted((ROOT / "conveyor").rglob("*.py"))
 GLOSSARY = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition("\n## Words\n")[2].partition("\n## ")[0]
@@ -54,7 +56,9 @@ def test_no_function_is_a_bare_participle():
 
 def test_functions_of_one_word_are_words_of_the_field():
     single = {name for _, name in module_functions() if "_" not in name}
-    assert single - ONE_WORD == set()
+    assert single - ONE_WORD == set(), (
+        "a second word says what is done or returned; commands, and words that everybody knows, stand in ONE_WORD"
+    )
     assert ONE_WORD - single == set(), "leave the list when the function goes"
 
 
@@ -84,6 +88,17 @@ def test_docstrings_of_functions_do_not_begin_with_riddles():
         and (line := (ast.get_docstring(node) or "").split("\n")[0])
         and riddle.match(line)
     ] == []
+
+
+def test_docstrings_list_every_system_of_units():
+    every = "{" + ", ".join(f'"{name}"' for name in SYSTEMS) + "}"
+    listed = {
+        (str(path.relative_to(ROOT)), written)
+        for path in FILES
+        for written in re.findall(r"(?:system|units) : (\{[^}]*\})", path.read_text(encoding="utf-8"))
+    }
+    assert listed, "docstrings list the systems"
+    assert {one for one in listed if one[1] != every} == set(), f"the systems of units are {every}"
 
 
 def described_arguments() -> Iterator[tuple[str, str, str, ast.arguments]]:

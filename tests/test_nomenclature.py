@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
@@ -23,6 +24,9 @@ SPECS = ("overland_10km", "downhill_brakes", "in_plant_us")
 NO_UNIT = "-"
 OF_WORDS = {"breakdown", "governing_cases", "inputs", "provenance", "remarks"}
 """Tables that docs/workbook.md explains."""
+ADD = "a row of conveyor/_reference/nomenclature.md names it with its kind; then " + (
+    "conveyor schema --nomenclature > docs/nomenclature.md"
+)
 CURRENCY = re.compile(r"[A-Z]{3}(/kWh)?|-")
 
 
@@ -32,20 +36,33 @@ def page() -> str:
 
 
 @cache
-def rows() -> dict[str, list[str]]:
-    """Names of the tables, each with the units that its rows give it."""
-    found: dict[str, list[str]] = {}
+def lines() -> list[tuple[list[str], list[str], str]]:
+    """Names, units and meaning of every row of the tables."""
+    found = []
     for line in page().splitlines():
         cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
         if len(cells) == 5:
-            names = re.findall(r"`([^`]+)`", cells[0])
-            for name in names:
-                found.setdefault(name, []).extend(
-                    unit.strip() for unit in cells[2].replace("in *Duty*,", ",").split(",")
-                )
-            if "in *Duty*" in cells[4]:
-                found["energy"].append("MWh")
+            units = [unit.strip() for unit in cells[2].replace("in *Duty*,", ",").split(",")]
+            found.append((re.findall(r"`([^`]+)`", cells[0]), units, cells[4]))
     return found
+
+
+@cache
+def rows() -> dict[str, list[str]]:
+    """Names of the tables, each with the units that its rows give it."""
+    found: dict[str, list[str]] = {}
+    for names, units, meaning in lines():
+        for name in names:
+            found.setdefault(name, []).extend(units)
+        if "in *Duty*" in meaning:
+            found["energy"].append("MWh")
+    return found
+
+
+def test_a_name_with_a_unit_has_one_meaning() -> None:
+    met = Counter((name, unit) for names, units, _ in lines() for name in names for unit in set(units))
+    twice = {name for (name, _), count in met.items() if count > 1}
+    assert twice == set(), "one row of conveyor/_reference/nomenclature.md has to go, or the column another name"
 
 
 def frames(name: str) -> Iterator[pd.DataFrame | pd.Series]:
@@ -88,7 +105,7 @@ def missing(columns: Sequence[str]) -> set[str]:
 
 @pytest.mark.parametrize("name", SPECS)
 def test_every_column_of_an_analysis_is_named_with_its_unit(name: str) -> None:
-    assert missing([column for frame in frames(name) for column in names(frame)]) == set()
+    assert missing([column for frame in frames(name) for column in names(frame)]) == set(), ADD
 
 
 def test_every_column_of_lives_is_named() -> None:
@@ -99,7 +116,7 @@ def test_every_column_of_lives_is_named() -> None:
         data["idlers"][strand]["roll"]["bearing"] = bearing
     result = conveyor.analyse(from_data(data))
     assert "roll L10 life [h]" in result.rolls
-    assert missing([*names(result.rolls), *names(result.sections)]) == set()
+    assert missing([*names(result.rolls), *names(result.sections)]) == set(), ADD
 
 
 def test_every_column_of_a_comparison_is_named_with_its_unit() -> None:
@@ -110,7 +127,7 @@ def test_every_column_of_a_comparison_is_named_with_its_unit() -> None:
         found.ranking,
         *(held[key].frame() for key in ("coverage", "refused") if key in held),
     ]
-    assert missing([column for frame in made for column in names(frame)]) == set()
+    assert missing([column for frame in made for column in names(frame)]) == set(), ADD
 
 
 def test_a_name_or_a_unit_that_is_not_there_would_be_seen() -> None:
@@ -137,9 +154,9 @@ def test_every_key_of_the_json_is_named() -> None:
     for name in SPECS:
         result, asked = worked_example(name)
         for key in keys(result.to_dict(asked)):
-            assert key in told or key.rsplit(".", 1)[-1] in rows(), key
+            assert key in told or key.rsplit(".", 1)[-1] in rows(), f"{key}: {ADD}"
     for key in keys(comparison_json(comparison())):
-        assert key in told or key.rsplit(".", 1)[-1] in rows(), key
+        assert key in told or key.rsplit(".", 1)[-1] in rows(), f"{key}: {ADD}"
 
 
 def test_every_field_of_the_contact_is_named() -> None:
@@ -147,4 +164,4 @@ def test_every_field_of_the_contact_is_named() -> None:
     told = {name.partition("(")[0] for name in re.findall(r"`([^`]+)`", section)}
     public = {name for name in vars(ContactSolution) if not name.startswith("_")}
     given = {field.name for kind in (ContactProblem, CreepSpectrum) for field in dataclasses.fields(kind)}
-    assert (public | given) - told == set()
+    assert (public | given) - told == set(), ADD

@@ -69,9 +69,9 @@ def impact_load(result: CalculatedConveyor) -> Iterator[Check]:
         if load is None:
             continue
         missing = "load that a set there bears (idler_rating) not given"
-        if point.lump_mass is not None and landing.lump is None:
+        if point.lump_mass is not None and landing.lump_force is None:
             missing = "spring rate for the lump (idler_stiffness) not given"
-        rating = None if point.lump_mass is not None and landing.lump is None else point.idler_rating
+        rating = None if point.lump_mass is not None and landing.lump_force is None else point.idler_rating
         yield check_against_limit(
             "impact_load", f"load of an impact set{escape_braces(point.name)}", load, "at most", rating, "force",
             source="its maker", missing=missing,

@@ -25,9 +25,9 @@ _AT_LEAST: Final[Relation] = "at least"
 
 def motor_power(result: CalculatedConveyor) -> Iterator[Check]:
     """Every drive's motors give its share with the friction to design for, or hold it with the least."""
-    line, motor = result.line, result.balance.frame.motor
+    line, motor = result.line, result.balance.layout.motor
     low, high = result.drive_forces
-    designed = high > result.balance.settled.force
+    designed = high > result.balance.equilibrium.force
     for drive in line.drives:
         least, most = (motor(drive.share * force, drive.share) for force in (low, high))
         certain = abs(least) > abs(most)
@@ -63,7 +63,7 @@ def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
                 "the motors give at least {calculated} during run-up (drive.torque_factor, torque_curve), the belt "
                 "requires {required}: more power or torque"
             )
-            given, limit, relation = start.least, result.balance.settled.design_force, _AT_LEAST
+            given, limit, relation = start.least, result.balance.equilibrium.design_force, _AT_LEAST
         yield check_against_limit(
             "starting_force", "starting force, motors", given, relation, limit, "force", why=why, where=where
         )
@@ -172,7 +172,7 @@ def drive_speed(result: CalculatedConveyor) -> Iterator[Check]:
 
 def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:
     """Parts of the drives, starts an hour and uncontrolled load sharing are within their limits; where given."""
-    motor = result.balance.frame.motor
+    motor = result.balance.layout.motor
     for duty in result.drive_duty:
         name, parts, installed = escape_braces(duty.drive.name), duty.parts, duty.drive.power
         if parts.backstop is not None and duty.backstop is not None:

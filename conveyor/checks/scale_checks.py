@@ -76,7 +76,7 @@ def _trade_checks(line: Line, scale: WeighSection) -> Iterator[Check]:
 
 def _tension_at(result: CalculatedConveyor, scale: WeighSection) -> float:
     """Largest steady tension of the belt on the weigh idlers, linear along their section [N]."""
-    line, steady = result.line, result.balance.settled.steady
+    line, steady = result.line, result.balance.equilibrium.steady
     length, at = line.sections[scale.section].length, line.count + scale.section
     start = math.fsum(section.length for section in line.sections[: scale.section])
     low, high = float(steady.starts[at]), float(steady.ends[at])

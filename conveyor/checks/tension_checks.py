@@ -21,7 +21,7 @@ from conveyor.units.sentences import escape_braces, message
 
 def take_up_tension(result: CalculatedConveyor) -> Iterator[Check]:
     """The take-up's tension suffices for grip and sag in every state; names the governing or all failed conditions."""
-    settled = result.balance.settled
+    settled = result.balance.equilibrium
     for name, asked in (settled.short or {settled.governing: settled.needed}).items():
         words, figures = _setting_text(result.line, asked)
         why = message(
@@ -87,7 +87,7 @@ def drive_grip(result: CalculatedConveyor) -> Iterator[Check]:
 
 def belt_sag(result: CalculatedConveyor) -> Iterator[Check]:
     """Between no two idler sets the belt sags more than allowed while it runs steadily; plates let nothing sag."""
-    settled, shape = result.balance.settled, result.line.loop
+    settled, shape = result.balance.equilibrium, result.line.loop
     running = settled.running
     lowest, least = [np.minimum(state.starts, state.ends).tolist() for state in running], shape.least.tolist()
     for strand in STRANDS:
@@ -107,7 +107,7 @@ def belt_sag(result: CalculatedConveyor) -> Iterator[Check]:
 
 def slack_belt(result: CalculatedConveyor) -> Iterator[Check]:
     """The belt is nowhere slack in any state of motion; names the slackest state or every one that fails."""
-    states, settled = motion_states(result.balance, result.motions), result.balance.settled
+    states, settled = motion_states(result.balance, result.motions), result.balance.equilibrium
     slack = [state for state in states if state.slack]
     for state in slack or [min(states, key=lambda state: state.smallest)]:
         words, figures = _setting_text(result.line, settled.setting - state.smallest)

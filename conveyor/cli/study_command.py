@@ -96,7 +96,7 @@ def study(
             reasons.update([point[-1]] if isinstance(point[-1], str) else [])
             return point
 
-        parts = point_tables.PartedTable(table, output, campaign.listed.count, row) if parted else None
+        parts = point_tables.PartedTable(table, output, campaign.require_list_plan().count, row) if parted else None
         running.run_study(
             campaign,
             known,
@@ -105,7 +105,7 @@ def study(
             progress=progress_reporter(told),
             answered=None if parts is None else parts.take,
         )
-        new, spent, count = len(known) - before, perf_counter() - begun, campaign.listed.count
+        new, spent, count = len(known) - before, perf_counter() - begun, campaign.require_list_plan().count
         if parts is None:
             table.write(output, (row(number, keyed) for number, keyed in running.keyed_points(campaign)))
         evaluated = summarise_study(campaign, running.design_results(campaign, known))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Final
 
@@ -10,13 +10,12 @@ from conveyor.assessment import Assessment
 from conveyor.desk.answer_parts import named_table
 from conveyor.errors import InputError
 from conveyor.models import Conveyor
+from conveyor.pipeline import ProgressCallback
 from conveyor.report.tables.dynamics_tables import SCENARIO_TABLES
 from conveyor.studies.duty import analyse_duty
 from conveyor.studies.input_ranges import analyse_ranges
 from conveyor.studies.loads import EveryLoad
 from conveyor.text.markup import Html, join_html
-
-Progress = Callable[[int, int], None]
 
 _TABLES: Final[Mapping[str, tuple[str, ...]]] = {
     "year": ("duty_year", "duty"),
@@ -39,7 +38,7 @@ def offered_studies(conveyor: Conveyor) -> dict[str, str]:
     return {key: words for key, words in STUDY_NAMES.items() if not missing.get(key)}
 
 
-def study_part(assessment: Assessment, key: str, progress: Progress) -> Html:
+def study_part(assessment: Assessment, key: str, progress: ProgressCallback) -> Html:
     """Tables of one study of an assessed variant.
 
     Parameters

@@ -257,10 +257,10 @@ def _bulk_slip(scenario: ScenarioResult) -> Iterator[Check]:
     line, worst = scenario.line, []
     for k, cells in scenario.stretches():
         stretch = line.loop.stretches[k]
-        grip = line.bulk_on_belt - abs(np.tan(stretch.inclination))
+        grip = line.bulk_belt_friction - abs(np.tan(stretch.inclination))
         if stretch.bulk_mass == 0.0 or grip <= 0.0:
             continue
-        low, high = bulk_slip_limits(line.bulk_on_belt, inclination=stretch.inclination, gravity=line.gravity)
+        low, high = bulk_slip_limits(line.bulk_belt_friction, inclination=stretch.inclination, gravity=line.gravity)
         hardest = float(scenario.record.slowest[cells.start : cells.stop + 1].min())
         fastest = float(scenario.record.fastest[cells.start : cells.stop + 1].max())
         worst += [

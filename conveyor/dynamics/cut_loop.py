@@ -111,7 +111,7 @@ class CutLoop:
         NoSolutionError
             The belt's stiffness or the run-up time of a winch is not known.
         """
-        line, settled = steady.line, steady.balance.settled
+        line, equilibrium = steady.line, steady.balance.equilibrium
         stiffness = belt_stiffness(line.belt)
         if stiffness is None:
             raise NoSolutionError(
@@ -123,12 +123,13 @@ class CutLoop:
                 "route.take_up.winch_run_up, the time in which it comes to its speed"
             )
         ways, count = line.loop.way, 2 * line.count
-        cut, after = _cut_position(line, behind=settled.take_up.behind)
+        cut, after = _cut_position(line, behind=equilibrium.take_up.behind)
         first = cut.boundary % count
         order = (first + np.arange(count)) % count
         friction, weight = _stretch_forces(steady)
         drags = (np.asarray(force.newtons) for force in steady.balance.along if force.key == "idler_rotation")
-        stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * next(drags, line.rotation)  # no own part of classical methods
+        drag = next(drags, line.roll_drag_forces)  # no own part of classical methods
+        stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * drag
         whole = float(ways[-1])
 
         def distance(spot: LoopPosition) -> float:
@@ -159,7 +160,7 @@ class CutLoop:
             ]),
         )  # fmt: skip
 
-    def cells(self, step: float, *, filled: bool = True) -> Cells:
+    def cut_into_cells(self, step: float, *, filled: bool = True) -> Cells:
         """Cut into cells that a wave crosses in a step or little longer, with drives at cell ends.
 
         Parameters

@@ -93,7 +93,9 @@ class ScenarioSetup:
         line, torques = self.loop.line, []
         for drive in self.drives:
             if drive.power is None:
-                largest = max(abs(self.loop.steady.balance.settled.force), abs(self.given.steady.balance.settled.force))
+                largest = max(
+                    abs(self.loop.steady.balance.equilibrium.force), abs(self.given.steady.balance.equilibrium.force)
+                )
                 torques.append(max(drive.share, 1.0 / len(self.drives)) * largest)
             else:
                 torques.append(start_force(drive.power, torque_factor=1.0, efficiency=line.efficiency,
@@ -128,8 +130,8 @@ class ScenarioSetup:
         """Duration as given, or to the end of the last ramp or the rest of a rigid belt plus some round trips [s]."""
         if self.scene.duration is not None:
             return self.scene.duration
-        settled = self.loop.steady.balance.settled
-        friction = self.scene.friction * (settled.force - self.loop.weight.sum()) + self.loop.weight.sum()
+        equilibrium = self.loop.steady.balance.equilibrium
+        friction = self.scene.friction * (equilibrium.force - self.loop.weight.sum()) + self.loop.weight.sum()
         mass = self.loop.mass.sum() + self.rims.sum()
         coasting = mass * self.loop.line.speed / friction if friction > 0.0 else 60.0
         last = 0.0
@@ -265,7 +267,9 @@ def prepare_belts(setups: list[ScenarioSetup], step: Array | float) -> tuple[lis
     Cells are as long as a wave travels in a step [s], of all or of each.
     """
     steps = np.broadcast_to(step, len(setups)).tolist()
-    cells = [setup.loop.cells(one, filled=not setup.scene.running) for setup, one in zip(setups, steps, strict=True)]
+    cells = [
+        setup.loop.cut_into_cells(one, filled=not setup.scene.running) for setup, one in zip(setups, steps, strict=True)
+    ]
     most = max(one.at.size for one in cells)
 
     def filled(parts: list[Array], rest: float, size: int) -> Array:
@@ -386,7 +390,7 @@ def machines_over_time(setups: list[ScenarioSetup], start: InitialState, step: A
     slip = np.array([[unit.slip for unit in setup.starters] for setup in setups])
     slope = rated / (slip * line.speed)
     steady = np.array([
-        [drive.share * setup.loop.steady.balance.settled.force for drive in setup.drives] for setup in setups
+        [drive.share * setup.loop.steady.balance.equilibrium.force for drive in setup.drives] for setup in setups
     ])  # fmt: skip
     running = np.array([[setup.scene.running] for setup in setups])
     level = line.speed + np.where(running, start.driving, steady) / slope

@@ -237,7 +237,7 @@ class _Motion:
             impulses[:, 2 + lumps :], lacking = self._drive(i, near, lacking, strained=strained, pushed=pushed)
         self.pulled = self.chain.held - lacking / self.dt[:, 0]
         impulses[:, 0], impulses[:, 1] = lacking, -lacking
-        change += solver.spread(impulses)
+        change += solver.speed_changes(impulses)
         return change
 
     def _rub_lumps(self, near: Array, lacking: Array, rolling: Array) -> tuple[Array, Array]:

@@ -216,7 +216,7 @@ class WaveSolver:
             apart = np.where(self.stiff, apart + (before[last] - before[first]) - wanted, apart)
         return np.asarray(self.kappa * apart)
 
-    def spread(self, impulses: Array) -> Array:
+    def speed_changes(self, impulses: Array) -> Array:
         """Change of all speeds by impulses at the ends, lumps and drives, shape (s, 2 + l + d) [m/s]."""
         places = self.places.acting.reshape(-1)
         at_masses = np.bincount(places, weights=impulses.reshape(-1), minlength=self.mass.size)

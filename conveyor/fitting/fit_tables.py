@@ -133,7 +133,7 @@ def file_table(fitted: FittedCompound) -> Table:
     """Error of the series, file by file."""
 
     def rms(which: int, number: int) -> float:
-        return float(np.sqrt(np.mean(fitted.fit.errors[which][fitted.rows.file == number] ** 2)))
+        return float(np.sqrt(np.mean(fitted.fit.relative_errors[which][fitted.rows.file == number] ** 2)))
 
     columns = (
         Column("file", "text", lambda k: fitted.files[k]),
@@ -183,7 +183,7 @@ def master_curve_table(fitted: FittedCompound) -> Table:
     omega, made = 2.0 * np.pi * f, fitted.fit.series
     numbers = np.array([
         rows.temperature, rows.frequency, rows.storage, rows.loss, f, storage, loss, made.storage(omega),
-        made.loss(omega), *fitted.fit.errors,
+        made.loss(omega), *fitted.fit.relative_errors,
     ]).T.tolist()  # fmt: skip
     kinds = ("temperature", "frequency", "pressure", "pressure") + ("frequency",) + ("pressure",) * 4 + ("share",) * 2
     names = (

@@ -432,7 +432,7 @@ def _end_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
             for k, label in enumerate(("E'", "E''")) if trust[k, here].any()]  # fmt: skip
     means = [
         [float(np.average(errors[k, here], weights=trust[k, here])) for _, k, here in ends]
-        for errors in (fit.errors, fit.best_errors)
+        for errors in (fit.relative_errors, fit.best_errors)
     ]
     worst = int(np.argmax(np.abs(means[0])))
     why = f"{ends[worst][0]}; the best positive spectrum has {percent(means[1][worst], 1, signed=True)} there"

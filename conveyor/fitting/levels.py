@@ -91,7 +91,7 @@ def file_level_findings(rows: MeasuredRows, read: Sequence[DmaData], shear: floa
     numbers, counts = np.unique(rows.file, return_counts=True)
     found = []
     for number, count in zip(numbers.tolist(), counts.tolist(), strict=True):
-        beside = [_logarithms_apart(rows, number, other) for other in numbers.tolist() if other != number]
+        beside = [_log_ratio_of_files(rows, number, other) for other in numbers.tolist() if other != number]
         apart = [logarithms for logarithms in beside if _stands_off(logarithms)]
         if apart:
             ratio = float(np.exp(np.median(np.concatenate(apart))))
@@ -106,7 +106,7 @@ def file_level_findings(rows: MeasuredRows, read: Sequence[DmaData], shear: floa
         )
 
 
-def _logarithms_apart(rows: MeasuredRows, number: int, other: int) -> FloatArray:
+def _log_ratio_of_files(rows: MeasuredRows, number: int, other: int) -> FloatArray:
     """Ln E' of the rows of a file less that of another at their reduced frequency, where that has any."""
     reduced, storage, _ = rows.curve
     mine, its = rows.file == number, rows.file == other

@@ -172,7 +172,7 @@ def _series_lines(fitted: FittedCompound) -> Iterator[str]:
 def _outlier_lines(fit: PronyFit) -> Iterator[str]:
     """Lines on rows with little weight in the fit."""
     f = fit.rows.frequency
-    for name, kept, error in zip(("E'", "E''"), np.split(fit.rows.trust, 2), fit.errors, strict=True):
+    for name, kept, error in zip(("E'", "E''"), np.split(fit.rows.trust, 2), fit.relative_errors, strict=True):
         stray = np.flatnonzero(kept < OUTLIER_TRUST)
         if stray.size:
             rows = ", ".join(

@@ -85,7 +85,7 @@ class _SheetNames:
     prefix: str = ""
     taken: set[str] = field(default_factory=lambda: {LISTS.casefold(), "history"})
 
-    def new(self, path: Path) -> str:
+    def free_sheet_name(self, path: Path) -> str:
         for count in range(1, len(path) + 1):
             name = key_label(f"{self.prefix} {' '.join(path[-count:])}")[:LONGEST_NAME].strip()
             if name.casefold() not in self.taken:
@@ -124,9 +124,11 @@ def plan_model(model: type[BaseModel]) -> SheetPlan:
     own = FieldGroup(
         key="", doc=root.doc, required=True, parts=tuple(p for p in root.parts if isinstance(p, FormField))
     )
-    forms = [_form_sheet(names.new((model.__name__,)), own, ())]
+    forms = [_form_sheet(names.free_sheet_name((model.__name__,)), own, ())]
     forms += [
-        _form_sheet(names.new((part.key,)), part, (part.key,)) for part in root.parts if isinstance(part, FieldGroup)
+        _form_sheet(names.free_sheet_name((part.key,)), part, (part.key,))
+        for part in root.parts
+        if isinstance(part, FieldGroup)
     ]
     return SheetPlan(root, tuple(forms), tuple(_list_sheets(root, (), None, names)))
 
@@ -185,7 +187,7 @@ def _list_sheets(group: FieldGroup, path: Path, parent: str | None, names: _Shee
     for part in group.parts:
         here = (*path, part.key)
         if isinstance(part, FieldTable):
-            name = names.new(here)
+            name = names.free_sheet_name(here)
             columns = tuple(_list_columns(part.item, (), certain=True))
             yield ListSheet(name, part, here, columns, parent)
             yield from _list_sheets(part.item, (), name, names)

@@ -67,10 +67,10 @@ def resolved_relaxation_times(contact: RollContact, line_load: float, error: flo
     tuple of float
         Fastest, slowest; a is Hertz' half width at the storage modulus of ω = V/a∞, a∞ that at the glassy modulus.
     """
-    rubber, speed = contact.rubber, contact.speed
+    series, speed = contact.series, contact.speed
     unit = 4.0 * (1.0 - contact.poisson**2) * line_load * contact.radius / math.pi
-    narrow = math.sqrt(unit / rubber.glassy)
-    narrow = math.sqrt(unit / float(rubber.storage(speed / narrow)))
+    narrow = math.sqrt(unit / series.glassy)
+    narrow = math.sqrt(unit / float(series.storage(speed / narrow)))
     fastest = (error / FAST_TERMS_INFLUENCE) ** (2.0 / 3.0) * narrow / speed
     return fastest, math.sqrt(SLOW_TERMS_INFLUENCE / error) * contact.cover_thickness / speed
 
@@ -90,4 +90,4 @@ def coarsen_rubber(contact: RollContact, line_load: float, error: float) -> Roll
     if contact.support != "confined" or contact.poisson != 0.5:
         return contact
     fastest, slowest = resolved_relaxation_times(contact, line_load, error)
-    return replace(contact, rubber=contact.rubber.merged(fastest=fastest, slowest=slowest))
+    return replace(contact, series=contact.series.merged(fastest=fastest, slowest=slowest))

@@ -286,7 +286,7 @@ def indentation_resistance(contact: RollContact, line_load: float, rtol: float =
     --------
     >>> from conveyor.rubber import PronySeries
     >>> rubber = PronySeries(8e6, [4e6], [1e-3])
-    >>> roll = RollContact(radius=0.0795, spacing=1.2, cover_thickness=6e-3, speed=5.0, rubber=rubber)
+    >>> roll = RollContact(radius=0.0795, spacing=1.2, cover_thickness=6e-3, speed=5.0, series=rubber)
     >>> one = indentation_resistance(roll, 2000.0)
     >>> round(float(one.resistance), 3), round(1e3 * float(one.half_width), 3)
     (6.13, 3.201)

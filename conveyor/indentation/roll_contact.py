@@ -28,7 +28,7 @@ class Backing:
         K, in-plane stiffness of the carcass [N/m].
     cover_thickness : float
         Of the other cover [m].
-    rubber : PronySeries
+    series : PronySeries
         Of the other cover at its temperature [Pa, s].
     """
 
@@ -37,7 +37,7 @@ class Backing:
     bending_loss: float
     stretching: float
     cover_thickness: float
-    rubber: PronySeries
+    series: PronySeries
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class RollContact:
         h, of the cover the roll runs on, at most λ unless `support` is a half-space [m].
     speed : float
         V, of the belt [m/s].
-    rubber : PronySeries
+    series : PronySeries
         Relaxation spectrum of the cover at its temperature [Pa, s].
     poisson : float
         ν of the rubber [-].
@@ -68,7 +68,7 @@ class RollContact:
     spacing: float
     cover_thickness: float
     speed: float
-    rubber: PronySeries
+    series: PronySeries
     poisson: float = 0.5
     support: Support = "confined"
     backing: Backing | None = None

@@ -53,21 +53,21 @@ def to_problems(contacts: Sequence[RollContact], line_loads: Sequence[float]) ->
     InputError
         As `to_problem`.
     """
-    behind = [contact.backing.rubber for contact in contacts if contact.backing is not None]
-    rubbers = dict.fromkeys([*(contact.rubber for contact in contacts), *behind])
+    behind = [contact.backing.series for contact in contacts if contact.backing is not None]
+    rubbers = dict.fromkeys([*(contact.series for contact in contacts), *behind])
     creep_of = dict(zip(rubbers, creep_forms(rubbers), strict=True))
     problems = []
     for contact, line_load in zip(contacts, line_loads, strict=True):
         k = 2.0 * math.pi / contact.spacing
-        rubbery = contact.rubber.equilibrium
+        rubbery = contact.series.equilibrium
         problems.append(
             ContactProblem(
                 support=contact.support
                 if contact.backing is None
-                else _dimensionless_belt(contact, contact.backing, creep_of[contact.backing.rubber]),
+                else _dimensionless_belt(contact, contact.backing, creep_of[contact.backing.series]),
                 radius=contact.radius / contact.spacing,
                 pressure=(1.0 - contact.poisson**2) * line_load / (math.pi * rubbery * contact.radius),
-                creep=_normalised_creep(creep_of[contact.rubber], rubbery, contact.speed * k),
+                creep=_normalised_creep(creep_of[contact.series], rubbery, contact.speed * k),
                 thickness=math.inf if contact.support == "half-space" else k * contact.cover_thickness,
                 poisson=contact.poisson,
             )
@@ -86,13 +86,13 @@ def _normalised_creep(creep: CreepSeries, rubbery: float, rate: float) -> CreepS
 
 def _dimensionless_belt(contact: RollContact, behind: Backing, creep: CreepSeries) -> Belt:
     """Dimensionless belt: tension T k/E0, bending D k³/E0, in-plane stiffness K k/E0."""
-    k, rubbery = 2.0 * math.pi / contact.spacing, contact.rubber.equilibrium
+    k, rubbery = 2.0 * math.pi / contact.spacing, contact.series.equilibrium
     bending = behind.bending * k**3 / rubbery
     return Belt(
         bottom=k * contact.cover_thickness,
         top=k * behind.cover_thickness,
-        top_creep=_normalised_creep(creep, behind.rubber.equilibrium, contact.speed * k),
-        top_modulus=behind.rubber.equilibrium / rubbery,
+        top_creep=_normalised_creep(creep, behind.series.equilibrium, contact.speed * k),
+        top_modulus=behind.series.equilibrium / rubbery,
         tension=behind.tension * k / rubbery,
         bending=complex(bending, bending * behind.bending_loss),
         stretching=behind.stretching * k / rubbery,

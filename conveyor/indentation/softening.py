@@ -159,7 +159,7 @@ def soften_or_raise(works: Sequence[SofteningCover]) -> list[SoftCover]:
     ... )
     >>> factors = AmplitudeFactors([StrainSweep(293.15, 1.0, strain, storage, [1.4e6] * 6)], 1e-4)
     >>> contact = RollContact(
-    ...     radius=0.08, spacing=1.5, cover_thickness=0.006, speed=5.0, rubber=PronySeries(8e6, [3e6], [1e-3])
+    ...     radius=0.08, spacing=1.5, cover_thickness=0.006, speed=5.0, series=PronySeries(8e6, [3e6], [1e-3])
     ... )
     >>> [(series, at)] = soften_or_raise([SofteningCover(contact, 3000.0, factors, 293.15)])
     >>> bool(abs(factors.storage(at.strain, 293.15) / at.storage_factor - 1.0) < STRAIN_RTOL)
@@ -201,7 +201,7 @@ def soften_covers(works: Sequence[SofteningCover]) -> list[SoftCover | NoSolutio
     def strains_of(asked: list[int], series: list[PronySeries]) -> list[WorkingPoint | NoSolutionError]:
         first = next(coarsely)  # the first strain is but a start
         problems = to_problems(
-            [replace(works[i].contact, rubber=one) for i, one in zip(asked, series, strict=True)],
+            [replace(works[i].contact, series=one) for i, one in zip(asked, series, strict=True)],
             [works[i].line_load for i in asked],
         )
         solved = dict(zip(asked, solve_many(problems, _CONTACT_RTOL), strict=True))
@@ -254,7 +254,7 @@ def soften_at_strains(
     ... )
     >>> factors = AmplitudeFactors([StrainSweep(293.15, 1.0, strain, storage, [1.4e6] * 6)], 1e-4)
     >>> contact = RollContact(
-    ...     radius=0.08, spacing=1.5, cover_thickness=0.006, speed=5.0, rubber=PronySeries(8e6, [3e6], [1e-3])
+    ...     radius=0.08, spacing=1.5, cover_thickness=0.006, speed=5.0, series=PronySeries(8e6, [3e6], [1e-3])
     ... )
     >>> [(series, at)] = soften_at_strains([SofteningCover(contact, 3000.0, factors, 293.15)], [(1e-4, 600.0)])
     >>> round(at.storage_factor, 6), round(at.loss_factor, 6)
@@ -269,7 +269,7 @@ def soften_at_strains(
 
 
 def _strain_tasks(works: Sequence[SofteningCover]) -> list[StrainTask]:
-    return [StrainTask(work.contact.rubber, work.factors, work.temperature, work.swept) for work in works]
+    return [StrainTask(work.contact.series, work.factors, work.temperature, work.swept) for work in works]
 
 
 def _strain_and_frequency(contact: RollContact, strain: float, wave_number: float) -> WorkingPoint:

@@ -77,12 +77,12 @@ def motor_power(belt_power: float, *, efficiency: float) -> float:
     return belt_power / efficiency if belt_power >= 0.0 else belt_power * efficiency
 
 
-def specific_energy(motor_power: float, *, mass_flow: float, length: float) -> float:
+def specific_energy(power: float, *, mass_flow: float, length: float) -> float:
     """Energy per mass and distance conveyed, P/(Q L).
 
     Parameters
     ----------
-    motor_power : float
+    power : float
         P [W], of either sign.
     mass_flow : float
         Q [kg/s], positive.
@@ -104,9 +104,9 @@ def specific_energy(motor_power: float, *, mass_flow: float, length: float) -> f
     >>> round(specific_energy(100e3, mass_flow=1000 / 3.6, length=1000.0), 9)
     0.1
     """
-    require_finite(motor_power=motor_power)
+    require_finite(power=power)
     require_positive(mass_flow=mass_flow, length=length)
-    return motor_power / (mass_flow * length) * TONNE_KM / JOULE_PER_KWH
+    return power / (mass_flow * length) * TONNE_KM / JOULE_PER_KWH
 
 
 def empirical_level_power(

@@ -162,7 +162,7 @@ class BeltContacts(Contacts):
         of_kinds, middle = super().rolls, self.pulls @ STRETCH_QUADRATURE[1]
         return tuple(
             tuple(
-                replace(roll, curve=_curve_at_tension(roll.curve, pull), held=fast.curve, beside=None)
+                replace(roll, curve=_curve_at_tension(roll.curve, pull), rigid_curve=fast.curve, beside=None)
                 for roll, fast in zip(rolls, held, strict=True)
             )
             for rolls, held, pull in zip(of_kinds, self.confined.rolls, middle.tolist(), strict=True)
@@ -380,14 +380,14 @@ def _accept_interpolation(
 
 def _has_loss(contact: RollContact) -> bool:
     behind = contact.backing
-    inside = behind is not None and (behind.rubber.moduli.size > 0 or behind.bending * behind.bending_loss > 0.0)
-    return inside or contact.rubber.moduli.size > 0
+    inside = behind is not None and (behind.series.moduli.size > 0 or behind.bending * behind.bending_loss > 0.0)
+    return inside or contact.series.moduli.size > 0
 
 
 def _read_belt_contacts(held: Contacts, pulls: Array, families: Sequence[TensionedCurves]) -> BeltContacts:
     """Resistance of every roll at the tensions of its stretch."""
     line, covers = held.line, held.covers
-    curves, drags = [], []
+    curves, resistances = [], []
     for kind, family in zip(line.kinds, families, strict=True):
         here = pulls[[i for i, _ in kind.rolls]]
         middle = float((here @ STRETCH_QUADRATURE[1]).mean())
@@ -398,5 +398,5 @@ def _read_belt_contacts(held: Contacts, pulls: Array, families: Sequence[Tension
             resistance = resistance * tested.factor(kind.distinct)
         weights = (family.weights(here) * STRETCH_QUADRATURE[1][:, None]).sum(axis=1)
         of_roll = np.repeat(weights, np.diff([*kind.starts, kind.which.size]), axis=0)
-        drags.append(integrate_along_rolls(kind, (of_roll * resistance.T[kind.which]).sum(axis=1)))
-    return BeltContacts(line, covers, tuple(curves), tuple(drags), pulls, held)
+        resistances.append(integrate_along_rolls(kind, (of_roll * resistance.T[kind.which]).sum(axis=1)))
+    return BeltContacts(line, covers, tuple(curves), tuple(resistances), pulls, held)

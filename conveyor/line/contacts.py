@@ -62,7 +62,7 @@ class RollResult:
         Its load curve.
     resistance : float
         Indentation resistance of the roll, ∫ f(w(y)) dy along it [N].
-    held : IndentationCurve, optional
+    rigid_curve : IndentationCurve, optional
         Load curve on a rigid carcass, where that of `curve` yields.
     beside : (PeakContacts, int), optional
         Contacts of all rolls of the curve, and the number of this one.
@@ -72,7 +72,7 @@ class RollResult:
     load: RollLoad
     curve: IndentationCurve
     resistance: float
-    held: IndentationCurve | None = None
+    rigid_curve: IndentationCurve | None = None
     beside: tuple[PeakContacts, int] | None = None
 
     @cached_property
@@ -86,9 +86,9 @@ class RollResult:
     @property
     def cover_penetration(self) -> float:
         """Penetration of the cover alone at the highest line load, without the carcass's deflection [m]."""
-        if self.held is None:
+        if self.rigid_curve is None:
             return float(self.peak.penetration)
-        return float(self.held.penetration(self.load.peak_line_load))
+        return float(self.rigid_curve.penetration(self.load.peak_line_load))
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,21 +103,21 @@ class Contacts:
         Cover under each strand.
     curves : tuple of IndentationCurve
         Theoretical load curve of every kind of roll, `line.kinds`.
-    drags : tuple of ndarray
+    roll_indentation : tuple of ndarray
         Indentation resistance of every roll of a kind [N], in the order of `kind.rolls`, with the test factor.
     """
 
     line: Line
     covers: Covers
     curves: tuple[IndentationCurve, ...]
-    drags: tuple[Array, ...]
+    roll_indentation: tuple[Array, ...]
 
     @cached_property
     def indentation(self) -> Array:
         """Indentation resistance of every stretch [N], shape (2n,)."""
         force = np.zeros(len(self.line.stretches))
-        for kind, drags in zip(self.line.kinds, self.drags, strict=True):
-            np.add.at(force, [i for i, _ in kind.rolls], drags)
+        for kind, resistances in zip(self.line.kinds, self.roll_indentation, strict=True):
+            np.add.at(force, [i for i, _ in kind.rolls], resistances)
         sets = np.array([stretch.sets for stretch in self.line.stretches])
         return np.asarray(force * sets)
 
@@ -126,11 +126,11 @@ class Contacts:
         """The loaded rolls of one set of every stretch, left to right."""
         stretches = self.line.stretches
         by_position: list[dict[int, RollResult]] = [{} for _ in stretches]
-        for kind, curve, drags in zip(self.line.kinds, self.curves, self.drags, strict=True):
+        for kind, curve, resistances in zip(self.line.kinds, self.curves, self.roll_indentation, strict=True):
             loads = [stretches[i].loads[place] for i, place in kind.rolls]
             peaks = PeakContacts(curve, np.array([load.peak_line_load for load in loads]))
-            for n, ((i, place), load, drag) in enumerate(zip(kind.rolls, loads, drags.tolist(), strict=True)):
-                by_position[i][place] = RollResult(place, load, curve, drag, beside=(peaks, n))
+            for n, ((i, place), load, force) in enumerate(zip(kind.rolls, loads, resistances.tolist(), strict=True)):
+                by_position[i][place] = RollResult(place, load, curve, force, beside=(peaks, n))
         return tuple(tuple(rolls[place] for place in sorted(rolls)) for rolls in by_position)
 
     def curves_of(self, strand: Strand) -> tuple[IndentationCurve, ...]:
@@ -309,7 +309,7 @@ def _read_contacts(
         for k, curve in enumerate(own if isinstance(own, tuple) else ()):
             asked.setdefault(curve, []).append((i, k))
     loads = [[lines[i].kinds[k].distinct for i, k in members] for members in asked.values()]
-    drags: list[dict[int, Array]] = [{} for _ in lines]
+    resistances: list[dict[int, Array]] = [{} for _ in lines]
     whole = curve_resistances(list(asked), [np.concatenate(each) for each in loads])
     for members, each, resistance in zip(asked.values(), loads, whole, strict=True):
         parts = np.split(resistance, np.cumsum([distinct.size for distinct in each])[:-1])
@@ -317,10 +317,10 @@ def _read_contacts(
             kind = lines[i].kinds[k]
             tested = covers[i][kind.strand].test_factor
             scaled = part if tested is None else part * tested.factor(kind.distinct)
-            drags[i][k] = integrate_along_rolls(kind, scaled[kind.which])
+            resistances[i][k] = integrate_along_rolls(kind, scaled[kind.which])
     return [
         Contacts(line, cover, own, tuple(found[k] for k in range(len(own)))) if isinstance(own, tuple) else own
-        for line, cover, own, found in zip(lines, covers, curves, drags, strict=True)
+        for line, cover, own, found in zip(lines, covers, curves, resistances, strict=True)
     ]
 
 

@@ -47,26 +47,27 @@ class CoverTestFactor:
 
 @dataclass(frozen=True, eq=False)
 class CoverState:
-    """A cover under rolls: thickness [m], rubber at its temperature, Poisson's ratio.
+    """A cover under rolls: thickness [m], Prony series at its temperature, Poisson's ratio.
 
     `strain` is the working strain; None for that of the master curve. `test_factor` is that on indentation; None
-    without one. `other` is the belt's other cover: thickness [m], rubber at small strain. `merged` and `read` are the
-    relative errors of indentation by merged relaxation terms and by a strain interpolated between speeds [-].
+    without one. `opposite_cover` is the belt's other cover: thickness [m], series at small strain. `merging_error` and
+    `interpolation_error` are the relative errors of indentation by merged relaxation terms and by a strain interpolated
+    between speeds [-].
     """
 
     thickness: float
-    rubber: PronySeries
+    series: PronySeries
     poisson: float
-    other: tuple[float, PronySeries]
+    opposite_cover: tuple[float, PronySeries]
     strain: WorkingStrain | None = None
     test_factor: CoverTestFactor | None = None
-    merged: float = 0.0
-    read: float = 0.0
+    merging_error: float = 0.0
+    interpolation_error: float = 0.0
 
     @property
     def indentation_error(self) -> float:
         """Relative error of indentation by the approximated rubber [-]."""
-        return self.merged + self.read
+        return self.merging_error + self.interpolation_error
 
 
 CoverName: TypeAlias = Strand | Literal["top"]
@@ -127,7 +128,7 @@ class CoverLoading:
         return self.line.strands.each[STRANDS.index(self.strand)].kinds
 
     @property
-    def scene(self) -> tuple[object, ...]:
+    def key(self) -> tuple[object, ...]:
         """Key equal for strands that load their covers identically, besides the compound."""
         line, cover = self.line, self.cover
         return (
@@ -137,12 +138,12 @@ class CoverLoading:
             line.softened,
             line.support,
             cover.thickness,
-            cover.other if line.support == "belt" else None,
-            cover.merged,
+            cover.opposite_cover if line.support == "belt" else None,
+            cover.merging_error,
             *(kind.bearing for kind in self.kinds),
         )
 
-    def worked(self) -> SofteningCover | None:
+    def softening(self) -> SofteningCover | None:
         """Contact that determines the working strain; None without strain dependence."""
         factors = self.compound.amplitude_factors() if self.line.softened and self.kinds else None
         if factors is None:
@@ -194,16 +195,16 @@ STRAIN_INTERPOLATION_RTOL: Final = 1e-4
 
 
 def softened_covers(
-    works: Sequence[CoverLoading], runs: Sequence[Sequence[CoverLoading]]
+    loadings: Sequence[CoverLoading], runs: Sequence[Sequence[CoverLoading]]
 ) -> list[CoverState | NoSolutionError | RangeError]:
     """Covers at their working strain, where the compounds have strain sweeps, solved in one batch.
 
     Parameters
     ----------
-    works : sequence of CoverLoading
+    loadings : sequence of CoverLoading
         Loaded strands.
     runs : sequence of sequence of CoverLoading
-        Strands of `works` that differ in speed alone.
+        Strands of `loadings` that differ in speed alone.
 
     Returns
     -------
@@ -211,7 +212,7 @@ def softened_covers(
         Covers of the strands in their order, or the error: no solution at the working strain, or sweeps that do not
         reach it.
     """
-    asked = {work: worked for work in works if (worked := work.worked()) is not None}
+    asked = {work: softening for work in loadings if (softening := work.softening()) is not None}
     threes = {three: part for run in runs for part in _speed_groups(run) for three in [_interpolation_nodes(part)]}
     between = {work for three, part in threes.items() for work in part if work not in three}
     alone = [work for work in asked if work not in between]
@@ -226,7 +227,7 @@ def softened_covers(
     soft |= zip(left, soften_covers([asked[work] for work in left]), strict=True)
     return [
         _softened_cover(work.cover, soft.get(work), STRAIN_INTERPOLATION_ERROR if work in read else 0.0)
-        for work in works
+        for work in loadings
     ]
 
 
@@ -269,18 +270,22 @@ def _interpolate_strains(
 
 
 def _softened_cover(
-    cover: CoverState, soft: SoftCover | NoSolutionError | RangeError | None, read: float
+    cover: CoverState, soft: SoftCover | NoSolutionError | RangeError | None, interpolation_error: float
 ) -> CoverState | NoSolutionError | RangeError:
     if soft is None:
         return cover
-    return replace(cover, rubber=soft[0], strain=soft[1], read=read) if isinstance(soft, tuple) else soft
+    return (
+        replace(cover, series=soft[0], strain=soft[1], interpolation_error=interpolation_error)
+        if isinstance(soft, tuple)
+        else soft
+    )
 
 
 def belt_backing(line: Line, cover: CoverState, tension: float) -> Backing:
     """Backing of a cover by the belt at a tension T - m' V² per width [N/m]."""
-    thickness, rubber = cover.other
+    thickness, series = cover.opposite_cover
     body = line.belt
-    return Backing(tension, body.bending, body.bending_loss, body.tensile_stiffness or 0.0, thickness, rubber)
+    return Backing(tension, body.bending, body.bending_loss, body.tensile_stiffness or 0.0, thickness, series)
 
 
 def roll_contact(line: Line, kind: RollKind, cover: CoverState, behind: Backing | None = None) -> RollContact:
@@ -291,7 +296,7 @@ def roll_contact(line: Line, kind: RollKind, cover: CoverState, behind: Backing 
         spacing=kind.spacing,
         cover_thickness=cover.thickness,
         speed=line.speed,
-        rubber=cover.rubber,
+        series=cover.series,
         poisson=cover.poisson,
         support=support if behind is None else "belt",
         backing=behind,

@@ -63,7 +63,7 @@ class Line:
         Largest size of the bulk [m], where the spec says it.
     drives : tuple of DriveUnit
         The first one first.
-    bulk_on_belt : float
+    bulk_belt_friction : float
         Friction of bulk on belt μ1 [-].
     efficiency, regeneration, mains_efficiency : float
         Motor shaft to belt, belt to motor shaft, mains to motor shaft [-].
@@ -103,7 +103,7 @@ class Line:
     drives: tuple[DriveUnit, ...]
     take_up: TakeUpUnit
     places: LoopPositions
-    bulk_on_belt: float
+    bulk_belt_friction: float
     efficiency: float
     regeneration: float
     mains_efficiency: float
@@ -170,7 +170,7 @@ class Line:
             drives=drive_units(conveyor, places),
             take_up=take_up_unit(conveyor, places),
             places=places,
-            bulk_on_belt=bulk_friction(conveyor),
+            bulk_belt_friction=bulk_friction(conveyor),
             efficiency=efficiency,
             regeneration=si_or_default(drive.regeneration_efficiency, efficiency),
             mains_efficiency=drive.mains_efficiency,
@@ -253,7 +253,7 @@ class Line:
         return self.strands.kinds
 
     @cached_property
-    def rotation(self) -> Array:
+    def roll_drag_forces(self) -> Array:
         """Drag of all rolls of every stretch [N], shape (2n,)."""
         whole = (
             idler_rotation_resistance(math.fsum(drags), n_rolls=1, spacing=s.spacing, length=s.length)

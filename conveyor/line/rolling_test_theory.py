@@ -146,7 +146,7 @@ def replica_band(
     if compound.prony.band is None:
         return 0.0, 0.0
     contacts = [
-        coarsen_rubber(replace(contact, rubber=rubber), load, _REPLICA_MERGE_TOLERANCE)
+        coarsen_rubber(replace(contact, series=rubber), load, _REPLICA_MERGE_TOLERANCE)
         for at in temperatures
         for rubber in (compound.series(at), *compound.replicas(at))
     ]
@@ -282,7 +282,7 @@ class RollingTestTheory:
         refused, asked = dict(self._refused), dict(self._asked)
         for (i, w), soft in zip(self._worked, covers, strict=True):
             if isinstance(soft, tuple):
-                asked[i, w] = replace(asked[i, w], rubber=soft[0])
+                asked[i, w] = replace(asked[i, w], series=soft[0])
             else:
                 refused.setdefault(i, soft)
                 del asked[i, w]
@@ -306,7 +306,7 @@ def _test_contact(compound: RubberCompound, points: RollingPoints) -> RollContac
         spacing=max(TEST_ROLL_SPACING, 4.0 * points.radius),
         cover_thickness=points.cover_thickness,
         speed=points.speed,
-        rubber=compound.series(points.temperature),
+        series=compound.series(points.temperature),
         poisson=compound.poisson_ratio,
     )
     return coarsen_rubber(contact, float(points.line_load.min()), TERM_MERGE_SHARE * RTOL)

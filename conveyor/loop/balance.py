@@ -67,7 +67,7 @@ class Balance:
         Forces along the belt, and those at single places: together every resistance.
     unit_main : float
         Main resistance that DIN 22101 gives for f = 1 [N].
-    settled : Equilibrium
+    equilibrium : Equilibrium
         Solved loop: every drive, the take-up, the states that decide its setting.
 
     Examples
@@ -79,7 +79,7 @@ class Balance:
 
     along: tuple[Force, ...]
     unit_main: float
-    settled: Equilibrium
+    equilibrium: Equilibrium
 
     def __repr__(self) -> str:
         power, tensions = self.power, self.tensions
@@ -93,17 +93,17 @@ class Balance:
     @property
     def line(self) -> Line:
         """The conveyor in SI."""
-        return self.settled.line
+        return self.equilibrium.line
 
     @property
-    def frame(self) -> LoopLayout:
+    def layout(self) -> LoopLayout:
         """Layout of the loop."""
-        return self.settled.frame
+        return self.equilibrium.layout
 
     @property
     def singles(self) -> tuple[Force, ...]:
         """Forces at single places."""
-        return self.settled.singles
+        return self.equilibrium.singles
 
     @property
     def every(self) -> tuple[Force, ...]:
@@ -123,24 +123,24 @@ class Balance:
     @cached_property
     def tensions(self) -> Tensions:
         """Tensions at the drives and extremes of the loop."""
-        steady, unsteady = self.settled.steady, self.settled.unsteady
+        steady, unsteady = self.equilibrium.steady, self.equilibrium.unsteady
         return Tensions(
             tight=max(drive.tight for drive in steady.drives),
             slack=min(drive.slack for drive in steady.drives),
             tight_start=max(drive.tight for drive in unsteady.drives),
-            governed_by="take-up" if self.settled.given else self.settled.governed_by,
-            largest=self.settled.largest,
+            governed_by="take-up" if self.equilibrium.given else self.equilibrium.governed_by,
+            largest=self.equilibrium.largest,
             smallest=steady.smallest,
         )
 
     @cached_property
     def power(self) -> Power:
         """Power in steady running."""
-        line, force = self.line, self.settled.force
-        mains = self.frame.mains(force)
+        line, force = self.line, self.equilibrium.force
+        mains = self.layout.mains(force)
         return Power(
             belt=belt_power(force, belt_speed=line.speed),
-            motor=self.frame.motor(force),
+            motor=self.layout.motor(force),
             mains=mains,
             energy_per_tonne_km=specific_energy(mains, mass_flow=line.flow, length=line.length)
             if line.flow > 0.0
@@ -158,38 +158,38 @@ class Balance:
         return cema_estimate(self.line, self.unit_main)
 
     @cached_property
-    def points(self) -> tuple[TensionPoint, ...]:
+    def tension_points(self) -> tuple[TensionPoint, ...]:
         """Tensions round the loop in steady running, from the head back to it."""
-        return tuple(_tension_points(self.settled, self.settled.steady))
+        return tuple(_tension_points(self.equilibrium, self.equilibrium.steady))
 
     def is_closed_at(self, kept: TakeUpSetting) -> bool:
         """True if the loop was closed with the take-up at this setting."""
-        settled = self.settled
-        stands = settled.frame.standing_on(behind=kept.behind) is settled.frame
-        return stands and settled.given and settled.setting == kept.tension
+        equilibrium = self.equilibrium
+        stands = equilibrium.layout.standing_on(behind=kept.behind) is equilibrium.layout
+        return stands and equilibrium.given and equilibrium.setting == kept.tension
 
     def designed_for(self, friction: float) -> Balance:
         """The loop with a friction to design for, over the computed one [-], the take-up at its setting."""
-        frame = self.frame.designed_for(friction)
-        if frame is self.frame:
+        layout = self.layout.designed_for(friction)
+        if layout is self.layout:
             return self
         (found,) = raise_first_error(
-            close_loops([OpenLoop.of(frame, self.along, self.unit_main, self.settled.take_up)])
+            close_loops([OpenLoop.of(layout, self.along, self.unit_main, self.equilibrium.take_up)])
         )
         return found
 
     def held(self, setting: float) -> Balance:
         """The loop with the take-up at a setting [N]."""
-        (found,) = with_take_up_at([self], self.settled.take_up._replace(tension=setting))
+        (found,) = with_take_up_at([self], self.equilibrium.take_up._replace(tension=setting))
         return found
 
 
-def close_loop(frame: LoopLayout, along: tuple[Force, ...], unit_main: float, setting: float | None = None) -> Balance:
+def close_loop(layout: LoopLayout, along: tuple[Force, ...], unit_main: float, setting: float | None = None) -> Balance:
     """Close the loop of tensions around the forces along the belt.
 
     Parameters
     ----------
-    frame : LoopLayout
+    layout : LoopLayout
         Layout of the loop.
     along : tuple of Force
         Forces along the belt.
@@ -203,7 +203,7 @@ def close_loop(frame: LoopLayout, along: tuple[Force, ...], unit_main: float, se
     NoSolutionError
         The tensions do not converge (wraps that grow faster than the tension they need).
     """
-    (found,) = raise_first_error(close_loops([OpenLoop(frame, along, unit_main, setting)]))
+    (found,) = raise_first_error(close_loops([OpenLoop(layout, along, unit_main, setting)]))
     return found
 
 
@@ -211,7 +211,7 @@ def with_take_up_at(loops: Iterable[Balance], kept: TakeUpSetting) -> list[Balan
     """Loops with the take-up at a setting: those of another one are closed anew."""
     every = list(loops)
     moved = [i for i, one in enumerate(every) if not one.is_closed_at(kept)]
-    asked = [OpenLoop.of(one.frame, one.along, one.unit_main, kept) for one in (every[i] for i in moved)]
+    asked = [OpenLoop.of(one.layout, one.along, one.unit_main, kept) for one in (every[i] for i in moved)]
     for i, one in zip(moved, raise_first_error(close_loops(asked)), strict=True):
         every[i] = one
     return every
@@ -228,22 +228,22 @@ def raise_first_error(found: Sequence[Balance | NoSolutionError]) -> list[Balanc
 class OpenLoop(NamedTuple):
     """A loop to be closed, as `close_loop` takes it."""
 
-    frame: LoopLayout
+    layout: LoopLayout
     along: tuple[Force, ...]
     unit_main: float
     setting: float | None = None
 
     @classmethod
-    def of(cls, frame: LoopLayout, along: tuple[Force, ...], unit_main: float, kept: TakeUpSetting | None) -> OpenLoop:
+    def of(cls, layout: LoopLayout, along: tuple[Force, ...], unit_main: float, kept: TakeUpSetting | None) -> OpenLoop:
         """Loop with the take-up at a setting, on its side of the drives."""
         if kept is None:
-            return cls(frame, along, unit_main)
-        return cls(frame.standing_on(behind=kept.behind), along, unit_main, kept.tension)
+            return cls(layout, along, unit_main)
+        return cls(layout.standing_on(behind=kept.behind), along, unit_main, kept.tension)
 
 
 def close_at_one_setting(loops: Sequence[Balance], behind: bool, serving: Sequence[int]) -> list[Balance]:
     """Close loops at the least setting of the take-up that suits those at the indices `serving`, each plan's own."""
-    asked = [OpenLoop(one.frame.standing_on(behind=behind), one.along, one.unit_main) for one in loops]
+    asked = [OpenLoop(one.layout.standing_on(behind=behind), one.along, one.unit_main) for one in loops]
     marked = set(serving)
     return raise_first_error(close_loops(asked, [i in marked for i in range(len(asked))]))
 
@@ -254,14 +254,14 @@ def close_loops(asked: Sequence[OpenLoop], serving: Sequence[bool] = ()) -> list
     With `serving`, those of one plan get one setting, the least that suits the loops marked; all of them if none is.
     """
     alike: dict[tuple[object, ...], list[int]] = {}
-    given = [one.frame.line.take_up.tension if one.setting is None else one.setting for one in asked]
+    given = [one.layout.line.take_up.tension if one.setting is None else one.setting for one in asked]
     for i, (one, setting) in enumerate(zip(asked, given, strict=True)):
-        alike.setdefault((one.frame.plan.key, setting is None), []).append(i)
+        alike.setdefault((one.layout.plan.key, setting is None), []).append(i)
     found: dict[int, Balance | NoSolutionError] = {}
     for rows in alike.values():
         these = [asked[i] for i in rows]
         further = [_length_coefficient_forces(one) for one in these]
-        loops = LoopBatch([one.frame for one in these], [one.along for one in these], further)
+        loops = LoopBatch([one.layout for one in these], [one.along for one in these], further)
         held = [setting for i in rows if (setting := given[i]) is not None]
         marked = np.array([serving[i] for i in rows]) if serving else None
         if marked is not None and not marked.any():
@@ -272,8 +272,8 @@ def close_loops(asked: Sequence[OpenLoop], serving: Sequence[bool] = ()) -> list
                 found[i] = refused[row]
                 continue
             made = one._replace(along=_with_flexure(one.along, closed.flexure[row]))
-            settled = Equilibrium(closed, row, (*one.frame.points, *_length_coefficient_forces(made)))
-            found[i] = Balance(made.along, one.unit_main, settled)
+            equilibrium = Equilibrium(closed, row, (*one.layout.points, *_length_coefficient_forces(made)))
+            found[i] = Balance(made.along, one.unit_main, equilibrium)
     return [found[i] for i in range(len(asked))]
 
 
@@ -287,15 +287,15 @@ def _with_flexure(along: tuple[Force, ...], flexure: Array) -> tuple[Force, ...]
 
 def _length_coefficient_forces(one: OpenLoop) -> tuple[Force, ...]:
     """Secondary resistance by the length coefficient, where it is not itemised."""
-    frame = one.frame
-    return (length_coefficient_force(frame.line, frame.landing, one.along),) if frame.line.secondary == "C" else ()
+    layout = one.layout
+    return (length_coefficient_force(layout.line, layout.landing, one.along),) if layout.line.secondary == "C" else ()
 
 
-def _tension_points(settled: Equilibrium, state: MotionState) -> Iterator[TensionPoint]:
+def _tension_points(equilibrium: Equilibrium, state: MotionState) -> Iterator[TensionPoint]:
     """Tensions round the loop in a state, from the head back to it."""
-    line, shape = settled.line, settled.line.loop
+    line, shape = equilibrium.line, equilibrium.line.loop
     way: list[float] = shape.way.tolist()
-    last = settled.frame.boundaries[-1]
+    last = equilibrium.layout.boundaries[-1]
     met = sorted(zip(line.drives, state.drives, strict=True), key=lambda pair: pair[0].spot)
     at_head = [side for drive, side in met if drive.spot.boundary == last]
     head = "drive" if at_head else "head"

@@ -197,7 +197,7 @@ def belt_duty(balance: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
     states : sequence of MotionState, optional
         States for curves and transitions; by default those that decide the setting of the take-up.
     """
-    states = states or tuple(balance.settled.states.values())
+    states = states or tuple(balance.equilibrium.states.values())
     belt = balance.line.belt
     steady, largest = _largest_running(balance), balance.tensions.largest
 
@@ -225,7 +225,7 @@ def belt_duty(balance: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
 
 def _splice_strengths(balance: Balance, endurance: float) -> dict[str, float]:
     """Strength class needed for the splice [N/m], by load; a start may load it `RATED_START` times."""
-    belt, steady = balance.line.belt, balance.settled.running
+    belt, steady = balance.line.belt, balance.equilibrium.running
     zones = [_transition_check(balance.line, zone, steady).most for zone in balance.line.transitions]
     curves = [curve.most for curve in _curve_checks(balance, steady)]
     curves += [curve.most for curve in pipe_curve_checks(balance.line, steady)]
@@ -249,7 +249,7 @@ def _splice_strengths(balance: Balance, endurance: float) -> dict[str, float]:
 
 def _largest_running(balance: Balance) -> float:
     """Largest tension at constant speed, whatever the friction [N]."""
-    return max(state.largest for state in balance.settled.running)
+    return max(state.largest for state in balance.equilibrium.running)
 
 
 def _drive_diameter(line: Line) -> float | None:
@@ -265,7 +265,7 @@ def _pulley_checks(balance: Balance) -> Iterator[PulleyCheck]:
     drive = _drive_diameter(line)
     if drive is None:
         return
-    running = balance.settled.running
+    running = balance.equilibrium.running
     lowest = min(float(min(state.starts.min(), state.ends.min())) for state in running)
     high = 0.5 * (lowest + _largest_running(balance))
     for i, pulley in enumerate(line.pulleys):

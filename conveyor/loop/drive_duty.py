@@ -196,15 +196,15 @@ def _shared_drive_forces(balance: Balance) -> tuple[float, ...] | None:
     None where no pulley is below nominal.
     """
     line, stiffness = balance.line, belt_stiffness(balance.line.belt)
-    states = balance.settled.states
-    steady = states.get(DESIGN, balance.settled.steady)
+    states = balance.equilibrium.states
+    steady = states.get(DESIGN, balance.equilibrium.steady)
     powers = [drive.power for drive in line.drives if drive.power is not None]
     smaller = any(drive.parts is not None and drive.parts.loss is not None for drive in line.drives)
     if len(line.drives) == 1 or not smaller or stiffness is None or len(powers) < len(line.drives):
         return None
     first = steady.drives[0].arriving
     return shared_forces(
-        balance.settled.design_force,
+        balance.equilibrium.design_force,
         rated=[power * line.efficiency / line.speed for power in powers],
         slips=[MOTOR_SLIP.value if drive.starter is None else drive.starter.slip for drive in line.drives],
         diameters=[_diameter_ratio(drive) for drive in line.drives],

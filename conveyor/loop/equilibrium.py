@@ -63,14 +63,14 @@ class Equilibrium:
     points: tuple[Force, ...]
 
     @property
-    def frame(self) -> LoopLayout:
+    def layout(self) -> LoopLayout:
         """Layout of the loop."""
-        return self.closed.loops.frames[self.row]
+        return self.closed.loops.layouts[self.row]
 
     @property
     def line(self) -> Line:
         """The conveyor in SI."""
-        return self.frame.line
+        return self.layout.line
 
     @property
     def mass(self) -> float:
@@ -125,7 +125,7 @@ class Equilibrium:
     @cached_property
     def singles(self) -> tuple[Force, ...]:
         """All forces at single places."""
-        pairs = zip(self.frame.bends, self.closed.pulleys[self.row].tolist(), strict=True)
+        pairs = zip(self.layout.bends, self.closed.pulleys[self.row].tolist(), strict=True)
         return (*self.points, *(force for bend, newtons in pairs for force in bend.forces(*newtons)))
 
     @cached_property
@@ -184,7 +184,7 @@ class Equilibrium:
         drives, k = self.line.drives, self._names[state]
         if c < len(drives):
             return f"grip, {drives[c].name}, {state}"
-        low, high = self.frame.boundaries[c - len(drives) :][:2]
+        low, high = self.layout.boundaries[c - len(drives) :][:2]
         along = self.closed.now.moving.along[self.row, k]
         needed = self.line.loop.least - np.minimum(along[:-1], along[1:])
         stretch = self.line.loop.stretches[low + int(np.argmax(needed[low:high]))]
@@ -308,7 +308,7 @@ def solve_equilibria(
     are reported as they come out, below zero by what the take-up lacks.
     """
     kinds, whole = _StateSet(loops), np.abs(loops.along[:, :2, -1].sum(axis=-1))
-    b, pulleys, sags = len(loops.frames), len(loops.plan.bends), bool(loops.flexure.any())
+    b, pulleys, sags = len(loops.layouts), len(loops.plan.bends), bool(loops.flexure.any())
     yielding, drive = np.concatenate([np.zeros((b, pulleys)), loops.given], axis=-1), np.full(b, np.inf)
     going, refused = np.ones(b, dtype=bool), dict[int, NoSolutionError]()
     last: tuple[Array, Array] | None = None
@@ -400,7 +400,7 @@ class _StateSet:
         self.hoppers = (
             np.array([[name == FILLED, name == RUN_OUT] for name in self.names], dtype=float) if changed else None
         )
-        self.friction = np.ones((len(loops.frames), len(self.names)))
+        self.friction = np.ones((len(loops.layouts), len(self.names)))
         self.friction[:, 2 + len(design) :] = standing.least_friction[:, None]
         for k, name in enumerate(self.names):
             if name in {DESIGN, DESIGN_START, FILLED, RUN_OUT}:

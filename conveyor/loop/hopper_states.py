@@ -40,12 +40,12 @@ def hopper_states(balance: Balance, motions: StartAndStop) -> tuple[HopperState,
     motions : StartAndStop
         Its start.
     """
-    states = balance.settled.states
+    states = balance.equilibrium.states
     if FILLED not in states:
         return ()
     made = (
         ("filled, after standing", states[FILLED]),
-        ("flow", states.get(DESIGN, balance.settled.steady)),
+        ("flow", states.get(DESIGN, balance.equilibrium.steady)),
         ("run-out", states[RUN_OUT]),
     )
     speed = balance.line.speed

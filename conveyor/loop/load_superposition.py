@@ -92,7 +92,7 @@ class SectionLoadings:
     def __init__(self, full: Balance, empty: Balance) -> None:
         self.line, self.full, self.empty = full.line, full, empty
         self.count = full.line.count
-        self.setting = full.settled.setting
+        self.setting = full.equilibrium.setting
         self.events = loop_events(full, empty)
         self.drive_at, self.stretch_at, self.stretch_end = self.events.drives, self.events.stretches, self.events.ends
         self.rotating = np.array([drive.reduced_mass for drive in self.line.drives])
@@ -229,7 +229,7 @@ class SectionLoadings:
             self.resistance(0.0),
         )
         moving = np.zeros(self.count)
-        for force in self.full.settled.points:
+        for force in self.full.equilibrium.points:
             if force.certain and force.kind != "lift" and force.bulk is not None:
                 moving[force.bulk] += force.total
         return (certain, more_certain - moving), (base - certain, more - more_certain)
@@ -303,7 +303,7 @@ class SectionLoadings:
         if state.name not in _STARTS:
             return acceleration, forces
         pulls = resistance > 0.0
-        pushed, pulled = start_motion(self.full.frame.standing.pull, np.where(pulls, resistance, 1.0), mass)
+        pushed, pulled = start_motion(self.full.layout.standing.pull, np.where(pulls, resistance, 1.0), mass)
         return np.where(pulls, pushed, acceleration), np.where(pulls, pulled.T, forces)
 
     def _offsets(self, state: MotionCase, loading: Loading, acceleration: float, forces: Array) -> Array:

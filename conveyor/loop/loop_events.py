@@ -54,13 +54,13 @@ _EventRow = tuple[float, float, float, float, float, float, int]
 
 def loop_events(full: Balance, empty: Balance) -> LoopEvents:
     """Events round the loop from the head, in running direction."""
-    line, frame, count = full.line, full.frame, full.line.count
+    line, layout, count = full.line, full.layout, full.line.count
     rows: list[_EventRow] = []
     stretches, ends = list[int](), list[int]()
     outlets = _outlet_events(full)
     drives = np.zeros(len(line.drives), dtype=int)
     held, spots = 0, list[int]()
-    standing = iter(list(enumerate(frame.spots)))
+    standing = iter(list(enumerate(layout.spots)))
     following = next(standing, None)
     for boundary, (bare, laden) in enumerate(
         zip([*_stretch_events(empty), None], [*_stretch_events(full), None], strict=True)
@@ -69,10 +69,10 @@ def loop_events(full: Balance, empty: Balance) -> LoopEvents:
             j = following[0]
             spots.append(len(rows))
             rows += _point_events(full, empty, j)
-            for d in frame.drives[j]:
+            for d in layout.drives[j]:
                 drives[d] = len(rows)
                 rows.append((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1))
-            if j == frame.anchor:
+            if j == layout.anchor:
                 held = len(rows)
             following = next(standing, None)
         if bare is not None and laden is not None:
@@ -85,8 +85,10 @@ def loop_events(full: Balance, empty: Balance) -> LoopEvents:
             if boundary in outlets:
                 rows.append(outlets[boundary].row)
             ends.append(len(rows))
-    if frame.anchor is None:
-        held = int(drives[frame.station[-1]]) + 1 if full.settled.take_up.behind else int(drives[frame.station[0]])
+    if layout.anchor is None:
+        held = (
+            int(drives[layout.station[-1]]) + 1 if full.equilibrium.take_up.behind else int(drives[layout.station[0]])
+        )
     columns = list(zip(*rows, strict=True))
     values = [np.array(column, dtype=float) for column in columns[:-1]]
     force, certain, mass, more_force, more_certain, more_mass = values
@@ -108,7 +110,7 @@ class _OutletEvent(NamedTuple):
 
 def _outlet_events(full: Balance) -> dict[int, _OutletEvent]:
     """Pull of the hoppers on every stretch under one, by its number in loop order."""
-    line, pulls, found = full.line, full.frame.standing.pulls, dict[int, _OutletEvent]()
+    line, pulls, found = full.line, full.layout.standing.pulls, dict[int, _OutletEvent]()
     for point in line.loading:
         if (hopper := point.loaded_hopper) is not None:
             spread = reach_shares(line.loop, point.spot, hopper.length)
@@ -140,12 +142,12 @@ def _stretch_events(balance: Balance) -> list[tuple[float, float, float] | None]
 
 def _point_events(full: Balance, empty: Balance, j: int) -> Iterator[_EventRow]:
     """Forces at a spot: of bulk with its section, of the length coefficient by section, and the rest."""
-    frame = full.frame
-    spot = frame.spots[j]
+    layout = full.layout
+    spot = layout.spots[j]
     always = math.fsum(
-        force for bend, force in zip(frame.bends, full.settled.bends, strict=True) if bend.pulley.spot == spot
+        force for bend, force in zip(layout.bends, full.equilibrium.bends, strict=True) if bend.pulley.spot == spot
     )
-    for force in full.settled.points:
+    for force in full.equilibrium.points:
         if force.spot != spot or force.reach > 0.0:
             continue
         if force.key == "secondary_by_length":

@@ -244,42 +244,42 @@ class LoopLayout:
         return motor_power(self.motor(force), efficiency=self.line.mains_efficiency)
 
 
-def _loop_plan(frame: LoopLayout) -> LoopPlan:
+def _loop_plan(layout: LoopLayout) -> LoopPlan:
     """Number the items of a loop, place by place."""
-    line, met = frame.line, 0
-    runs, spots, drives = [], [], [0] * len(frame.line.drives)
-    pulleys, sides = [0] * len(frame.bends), [[0]] * len(frame.bends)
+    line, met = layout.line, 0
+    runs, spots, drives = [], [], [0] * len(layout.line.drives)
+    pulleys, sides = [0] * len(layout.bends), [[0]] * len(layout.bends)
     held = None
-    for j, spot in enumerate(frame.spots):
-        if j and spot.boundary != frame.spots[j - 1].boundary:
+    for j, spot in enumerate(layout.spots):
+        if j and spot.boundary != layout.spots[j - 1].boundary:
             runs.append(met)
             met += 1
         spots.append(met)
         met += 1
-        here = [p for p, bend in enumerate(frame.bends) if bend.pulley.spot == spot]
+        here = [p for p, bend in enumerate(layout.bends) if bend.pulley.spot == spot]
         for p in here:
             pulleys[p] = met
             met += 1
         first = met
-        for d in frame.drives[j]:
+        for d in layout.drives[j]:
             drives[d] = met
             met += 1
         for p in here:
-            sides[p] = list(range(first, met + 1)) if frame.drives[j] else [spots[j]]
-        if j == frame.anchor:
+            sides[p] = list(range(first, met + 1)) if layout.drives[j] else [spots[j]]
+        if j == layout.anchor:
             held = met
     widest = max(map(len, sides), default=1)
     padded = [each + each[-1:] * (widest - len(each)) for each in sides]
-    columns = (frame.boundaries, runs, spots, pulleys, drives, *padded)
-    station = (drives[frame.station[0]], drives[frame.station[-1]] + 1)
+    columns = (layout.boundaries, runs, spots, pulleys, drives, *padded)
+    station = (drives[layout.station[0]], drives[layout.station[-1]] + 1)
     if held is None and line.take_up.behind is not None:
         held = station[line.take_up.behind]
     keeps = line.take_up.keeps_length
-    carried = [line.take_up.pulls(bend.pulley) for bend in frame.bends]
+    carried = [line.take_up.pulls(bend.pulley) for bend in layout.bends]
     return LoopPlan(
         key=(*map(tuple, columns), tuple(carried), held, station, keeps, StartingForces.of(line).kind),
         count=met,
-        boundaries=np.array(frame.boundaries),
+        boundaries=np.array(layout.boundaries),
         runs=np.array(runs),
         spots=np.array(spots),
         bends=np.array(pulleys, dtype=np.intp),
@@ -290,24 +290,24 @@ def _loop_plan(frame: LoopLayout) -> LoopPlan:
         held=held,
         station=station,
         head=runs[-1] + 1,
-        landing=spots[frame.at[frame.landing]],
+        landing=spots[layout.at[layout.landing]],
         keeps_length=keeps,
     )
 
 
-def _loop_constants(frame: LoopLayout) -> LoopConstants:
+def _loop_constants(layout: LoopLayout) -> LoopConstants:
     """Constants of a loop in the order of its plan."""
-    line, plan = frame.line, frame.plan
-    shape, pulleys = line.loop, [bend.pulley for bend in frame.bends]
+    line, plan = layout.line, layout.plan
+    shape, pulleys = line.loop, [bend.pulley for bend in layout.bends]
     met = np.zeros((3, plan.count))
     pulls, early = np.zeros((3, 2 * line.count)), np.zeros(3)
-    for force in frame.points:
+    for force in layout.points:
         if force.spot is not None and force.reach > 0.0:
             spread = reach_shares(line.loop, force.spot, force.reach)
             pulls += np.outer((force.total, 0.0, -force.total), spread.shares)
             early += spread.early * np.array((force.total, 0.0, -force.total))
         elif force.spot is not None:
-            met[0 if force.certain else 1, plan.spots[frame.at[force.spot]]] += force.total
+            met[0 if force.certain else 1, plan.spots[layout.at[force.spot]]] += force.total
     for point in line.loading:
         if (hopper := point.loaded_hopper) is not None:
             spread, more = reach_shares(line.loop, point.spot, hopper.length), initial_pull(line, point)
@@ -325,9 +325,9 @@ def _loop_constants(frame: LoopLayout) -> LoopConstants:
         lengths=shape.length,
         grip=np.array([grip_tension(1.0, friction=d.friction, wrap_angle=d.wrap_angle) for d in line.drives]),
         brakes=np.array(line.brakes),
-        wrap=np.array([bend.wrap[0] for bend in frame.bends]),
-        slope=np.array([bend.wrap[1] for bend in frame.bends]),
-        bearings=np.array([bend.bearings or 0.0 for bend in frame.bends]),
+        wrap=np.array([bend.wrap[0] for bend in layout.bends]),
+        slope=np.array([bend.wrap[1] for bend in layout.bends]),
+        bearings=np.array([bend.bearings or 0.0 for bend in layout.bends]),
         pulley_mass=np.array([pulley.mass for pulley in pulleys]),
         wrap_angle=np.array([pulley.wrap_angle for pulley in pulleys]),
         least_friction=np.array(line.least_friction),

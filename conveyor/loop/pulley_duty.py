@@ -190,7 +190,7 @@ def pulley_tensions(balance: Balance, i: int, state: MotionState) -> tuple[float
     if line.take_up.pulls(pulley):
         return state.held, state.held
     if not pulley.driven:
-        before = state.spots[balance.frame.at[pulley.spot]]
+        before = state.spots[balance.layout.at[pulley.spot]]
         return before, before
     met = [k for k, other in enumerate(line.pulleys) if other.driven and other.spot == pulley.spot]
     steps = list(_tension_steps(balance, pulley, state, len(met)))

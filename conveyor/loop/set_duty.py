@@ -74,7 +74,7 @@ class SetDuty:
 
 def set_duty(balance: Balance) -> tuple[SetDuty, ...]:
     """Set duties of every stretch whose spec gives set limits, in loop order."""
-    line, steady = balance.line, balance.settled.steady
+    line, steady = balance.line, balance.equilibrium.steady
     return tuple(
         _stretch_duty(balance, stretch, float(start), float(end))
         for stretch, start, end in zip(line.loop.stretches, steady.starts, steady.ends, strict=True)

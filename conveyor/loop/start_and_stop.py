@@ -128,30 +128,30 @@ def start_and_stop(balance: Balance) -> StartAndStop:
     balance : Balance
         The conveyor.
     """
-    settled, line = balance.settled, balance.line
-    mass, rotating = settled.mass, math.fsum(drive.reduced_mass for drive in line.drives)
-    least = settled.least_force
+    equilibrium, line = balance.equilibrium, balance.line
+    mass, rotating = equilibrium.mass, math.fsum(drive.reduced_mass for drive in line.drives)
+    least = equilibrium.least_force
     brakes = math.fsum(line.brakes)
     wanted = line.stop_deceleration
-    certain = settled.resistance(0.0)
-    moving = math.fsum(force.total for force in settled.points if force.certain and force.kind != "lift")
+    certain = equilibrium.resistance(0.0)
+    moving = math.fsum(force.total for force in equilibrium.points if force.certain and force.kind != "lift")
     lift = certain - moving
     hold, back = _holding_force(lift, least - certain)
     whole = mass + rotating
     gripping = max(0.0, line.speed - least / whole * line.brake_delay)
     stopped, heat = (None, None) if brakes == 0.0 else _braked_stop(line, least, brakes, whole, gripping)
-    off, starting = settled.coasting, partial(_conveyor_start, balance, mass, rotating)
+    off, starting = equilibrium.coasting, partial(_conveyor_start, balance, mass, rotating)
     frictions = {1.0, line.design_friction, line.least_friction}
     starts = {friction: starting(friction) for friction in frictions}
     pushes = [start.acceleration for start in starts.values()]
-    stop = _hardest_stop(line, settled.design_force, brakes, whole)
+    stop = _hardest_stop(line, equilibrium.design_force, brakes, whole)
     return StartAndStop(
         moving_mass=mass,
         rotating_mass=rotating,
         start=starts[1.0],
         design_start=starts[line.design_friction],
-        coasting=_stop_under_force(line.speed, settled.force, whole),
-        coasting_design=_stop_under_force(line.speed, settled.design_force, whole),
+        coasting=_stop_under_force(line.speed, equilibrium.force, whole),
+        coasting_design=_stop_under_force(line.speed, equilibrium.design_force, whole),
         coasting_least=_stop_under_force(line.speed, least, whole),
         braked=stopped,
         runaway=-least / whole if least < 0.0 else None,
@@ -168,7 +168,7 @@ def start_and_stop(balance: Balance) -> StartAndStop:
 
 def motion_states(balance: Balance, moving: StartAndStop) -> tuple[MotionState, ...]:
     """All states of motion: those that decide the take-up's setting, and coasting."""
-    return (*balance.settled.states.values(), *moving.states.values())
+    return (*balance.equilibrium.states.values(), *moving.states.values())
 
 
 def _holding_force(lift: float, friction: float) -> tuple[float, bool]:
@@ -202,8 +202,8 @@ def _braked_stop(
 
 def _conveyor_start(balance: Balance, mass: float, rotating: float, friction: float) -> Start:
     """Start at a friction over the computed one [-]."""
-    line, steady = balance.line, balance.settled.resistance(friction)
-    drag = balance.forces.parts.get("idler_rotation", float(line.rotation.sum()))
+    line, steady = balance.line, balance.equilibrium.resistance(friction)
+    drag = balance.forces.parts.get("idler_rotation", float(line.roll_drag_forces.sum()))
     stuck = friction * (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * drag
     stuck += friction * math.fsum(initial_pull(line, point) for point in line.loading)
     if steady <= 0.0:
@@ -252,7 +252,7 @@ def _slip_limits(line: Line) -> SlipLimits | None:
         if stretch.bulk_mass == 0.0:
             continue
         try:
-            low, high = bulk_slip_limits(line.bulk_on_belt, inclination=stretch.inclination, gravity=line.gravity)
+            low, high = bulk_slip_limits(line.bulk_belt_friction, inclination=stretch.inclination, gravity=line.gravity)
         except NoSolutionError:
             sliding.append(stretch.section)
             continue

@@ -68,8 +68,8 @@ class TakeUpDuty:
 
 def on_common_side(loops: Sequence[Balance]) -> list[Balance]:
     """Put a slack-side take-up of all loops on the side of the drives it has in the first."""
-    kept = loops[0].settled.take_up
-    stand = all(one.frame.standing_on(behind=kept.behind) is one.frame for one in loops)
+    kept = loops[0].equilibrium.take_up
+    stand = all(one.layout.standing_on(behind=kept.behind) is one.layout for one in loops)
     return list(loops) if stand else with_take_up_at(loops, kept)
 
 
@@ -94,16 +94,16 @@ def at_common_setting(loops: Sequence[Balance], asking: Sequence[bool] = ()) -> 
         return []
     if loops[0].line.take_up.tension is not None:
         return on_common_side(loops)
-    kept = loops[0].settled.take_up
+    kept = loops[0].equilibrium.take_up
     served = [i for i, asks in enumerate(asking) if asks] or range(len(loops))
-    kept = kept._replace(tension=max(loops[i].settled.needed for i in served))
+    kept = kept._replace(tension=max(loops[i].equilibrium.needed for i in served))
     closed = list(loops)
     if not all(one.is_closed_at(kept) for one in loops):
         closed = close_at_one_setting(loops, kept.behind, served)
     for _ in range(_MAX_SETTING_STEPS):  # more than once only for loops of several plans
-        kept = kept._replace(tension=max(closed[i].settled.needed for i in served))
+        kept = kept._replace(tension=max(closed[i].equilibrium.needed for i in served))
         closed = with_take_up_at(closed, kept)
-        if math.isclose(kept.tension, max(closed[i].settled.needed for i in served), rel_tol=_SETTING_TOLERANCE):
+        if math.isclose(kept.tension, max(closed[i].equilibrium.needed for i in served), rel_tol=_SETTING_TOLERANCE):
             return closed
     raise NoSolutionError(
         "no take-up tension suits every load: each increase raises what another load needs; check pulley diameters"
@@ -125,13 +125,13 @@ def take_up_duty(
         Temperatures of the belt [K].
     """
     line = loops[0].line
-    governing = first_maximum(range(len(loops)), lambda i: loops[i].settled.needed)
-    settled = loops[governing].settled
-    means = [loop.settled.steady.mean(loop.line.loop.length) for loop in loops]
+    governing = first_maximum(range(len(loops)), lambda i: loops[i].equilibrium.needed)
+    equilibrium = loops[governing].equilibrium
+    means = [loop.equilibrium.steady.mean(loop.line.loop.length) for loop in loops]
     every = [state.mean(loop.line.loop.length) for loop, of in zip(loops, states, strict=True) for state in of]
     known = list(temperatures)
     warmth = max(known) - min(known)
-    unit, setting = line.take_up, settled.setting
+    unit, setting = line.take_up, equilibrium.setting
     stiffness, strain = belt_stiffness(line.belt), _thermal_expansion(line.belt) * warmth
     travel, change = None, None
     if stiffness is not None:
@@ -149,9 +149,9 @@ def take_up_duty(
     return TakeUpDuty(
         unit=unit,
         setting=setting,
-        needed=settled.needed,
+        needed=equilibrium.needed,
         governing=governing,
-        governed_by=settled.governing,
+        governed_by=equilibrium.governing,
         mass=None if unit.keeps_length else take_up_weight_mass(line, setting),
         warmth=warmth,
         travel=travel,
@@ -164,11 +164,11 @@ def _carriage_speed(loops: Sequence[Balance], stiffness: float) -> float:
     """Highest speed of the carriage in a start [m/s]; 0 without acceleration."""
     line, speeds = loops[0].line, [0.0]
     for loop in loops:
-        start, lengths = loop.settled.unsteady, loop.line.loop.length
+        start, lengths = loop.equilibrium.unsteady, loop.line.loop.length
         if start.acceleration != 0.0:
             speeds.append(
                 follow_speed(
-                    start.mean(lengths) - loop.settled.steady.mean(lengths),
+                    start.mean(lengths) - loop.equilibrium.steady.mean(lengths),
                     time=loop.line.speed / abs(start.acceleration),
                     stiffness=stiffness,
                     loop_length=float(line.loop.way[-1]),

@@ -45,7 +45,7 @@ class Convergence:
     ratio: float
     bound: float
 
-    def settled(self, rtol: float) -> bool:
+    def has_converged(self, rtol: float) -> bool:
         """True if converged to a tolerance [-]; one step alone gives no ratio."""
         return self.steps > 1 and self.ratio < 1.0 and max(self.change, self.bound) <= rtol
 
@@ -76,7 +76,7 @@ def next_convergence(
     ratio = change / (1.0 if last is None or last.change == 0.0 else last.change)
     bound = change * ratio / (1.0 - ratio) if ratio < 1.0 else change
     state = Convergence(1 if last is None else last.steps + 1, change, ratio, bound)
-    if state.steps >= MAX_COUPLING_STEPS and not state.settled(line.rtol):
+    if state.steps >= MAX_COUPLING_STEPS and not state.has_converged(line.rtol):
         raise NoSolutionError(
             f"tensions and what they do to the rolls do not settle in {MAX_COUPLING_STEPS} steps (last change "
             f"{change:.2g}): "

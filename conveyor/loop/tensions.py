@@ -67,7 +67,7 @@ class MotionState:
     held : float
         Tension at the take-up [N].
     spots : tuple of float
-        Tension before every spot of the frame [N].
+        Tension before every spot of each layout [N].
     largest, smallest : float
         Highest and lowest tension round the loop [N].
     early : float
@@ -104,38 +104,38 @@ class LoopBatch:
 
     Parameters
     ----------
-    frames : sequence of LoopLayout
+    layouts : sequence of LoopLayout
         Layout of each loop.
     along : sequence of sequence of Force
         Forces along each belt.
     further : sequence of sequence of Force
-        Forces at single places in addition to those of each frame.
+        Forces at single places in addition to those of each layout.
     """
 
     def __init__(
         self,
-        frames: Sequence[LoopLayout],
+        layouts: Sequence[LoopLayout],
         along: Sequence[Sequence[Force]],
         further: Sequence[Sequence[Force]],
     ) -> None:
-        self.frames, self.plan, count = frames, frames[0].plan, frames[0].line.count
-        self.standing = LoopConstants.side_by_side([frame.standing for frame in frames])
+        self.layouts, self.plan, count = layouts, layouts[0].plan, layouts[0].line.count
+        self.standing = LoopConstants.side_by_side([layout.standing for layout in layouts])
         forces = np.roll([_force_sums(each, count) for each in along], count, axis=-1)
         forces[:, 1] += self.standing.pulls[:, 0]
         by_sag = np.roll([_flexure_by_sag(each, count) for each in along], count, axis=-1)
         self.given, self.flexure = by_sag[:, 0], by_sag[:, 1]
         """Flexure as given and at the largest sag, in loop order [N], shape (b, 2n); 0 where it is another law's."""
-        self.along = np.zeros((len(frames), 3, 2 * count + 1))
+        self.along = np.zeros((len(layouts), 3, 2 * count + 1))
         """Running sums of the forces along the belt without and with friction [N], and of the mass [kg]."""
         np.cumsum(forces, axis=-1, out=self.along[:, :2, 1:])
         self.along[:, 2] = self.standing.mass
         self.met = self.standing.met.copy()
         """The same sums between two places of the plan, shape (b, 3, count)."""
         self.met[:, :2, self.plan.runs] = np.diff(self.along[:, :2, self.plan.boundaries])
-        for met, frame, forces_there in zip(self.met, frames, further, strict=True):
+        for met, layout, forces_there in zip(self.met, layouts, further, strict=True):
             for force in forces_there:
                 if force.spot is not None:
-                    met[1, self.plan.spots[frame.at[force.spot]]] += force.total
+                    met[1, self.plan.spots[layout.at[force.spot]]] += force.total
         self.lift, self.rubbing = self.met[:, 0].sum(axis=-1), self.met[:, 1].sum(axis=-1)
         self.mass = self.standing.mass[:, -1]
         relieved = (1.0 + self.standing.by_length) * (self.flexure - self.given).sum(axis=-1)
@@ -315,7 +315,7 @@ class BatchTensions:
     def state(self, i: int, k: int, name: str) -> MotionState:
         """State k of loop i."""
         moving, level = self.moving, float(self.level[i, k])
-        plan, line = moving.loops.plan, moving.loops.frames[i].line
+        plan, line = moving.loops.plan, moving.loops.layouts[i].line
         forces, sides = moving.forces[i, k].tolist(), (level + moving.sides[i, k]).tolist()
         spots = (level + moving.offsets[i, k, plan.spots]).tolist()
         return MotionState(

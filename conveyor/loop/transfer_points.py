@@ -41,7 +41,7 @@ class LoadingPointDuty:
         The first on the belt's slope, at least that of ISO 5048 [m]; None where it is too steep for its friction.
     resting : float
         Weight of belt and bulk on a set there [N].
-    stream, lump, energy : float or None
+    stream, lump_force, energy : float or None
         Force of the stream, of the heaviest lump [N], its energy [J]; None where data are missing.
     """
 
@@ -51,13 +51,13 @@ class LoadingPointDuty:
     on_slope: float | None
     resting: float
     stream: float | None
-    lump: float | None
+    lump_force: float | None
     energy: float | None
 
     @property
     def load(self) -> float | None:
         """Highest load of a set [N]: resting weight plus the larger of stream and lump impact."""
-        return None if self.stream is None else self.resting + max(self.stream, self.lump or 0.0)
+        return None if self.stream is None else self.resting + max(self.stream, self.lump_force or 0.0)
 
     @property
     def bed(self) -> str | None:
@@ -73,13 +73,15 @@ def loading_point_duty(line: Line) -> tuple[LoadingPointDuty, ...]:
 def _point_duty(line: Line, point: LoadingPoint) -> LoadingPointDuty:
     stretch, gravity, drop = line.stretches[point.section], line.gravity, point.drop_height
     spacing = point.idler_spacing or stretch.spacing
-    stream = lump = energy = None
+    stream = lump_force = energy = None
     if drop is not None:
         stream = stream_impact(point.flow, drop_height=drop, gravity=gravity)
         if point.lump_mass is not None:
             energy = point.lump_mass * gravity * drop
             if point.idler_stiffness is not None:
-                lump = lump_impact(point.lump_mass, drop_height=drop, stiffness=point.idler_stiffness, gravity=gravity)
+                lump_force = lump_impact(
+                    point.lump_mass, drop_height=drop, stiffness=point.idler_stiffness, gravity=gravity
+                )
     level = point.acceleration_length(line.speed, gravity)
     try:
         on_slope = max(level, point.acceleration_length(line.speed, gravity, stretch.inclination))
@@ -92,7 +94,7 @@ def _point_duty(line: Line, point: LoadingPoint) -> LoadingPointDuty:
         on_slope,
         (stretch.belt_mass + point.flow_beyond / line.speed) * spacing * gravity,
         stream,
-        lump,
+        lump_force,
         energy,
     )
 

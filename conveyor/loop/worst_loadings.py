@@ -143,7 +143,7 @@ class CriterionLoadings(SectionLoadings):
                 continue
             pairs = zip(line.drives, self.drive_at.tolist(), strict=True)
             beside = [d for drive, d in pairs if pulley.driven and drive.spot == pulley.spot]
-            before = self.events.spots[self.full.frame.at[pulley.spot]]
+            before = self.events.spots[self.full.layout.at[pulley.spot]]
             places[i] = [at for d in beside for at in (d, d + 1)] or [before]
         return places
 
@@ -163,7 +163,9 @@ class CriterionLoadings(SectionLoadings):
         """Addition to rolls and hoppers after standstill [N], at the friction to design for; as in `at_rest`."""
         drags = []
         for one in (self.empty, self.full):
-            drag = next((force.newtons for force in one.along if force.key == "idler_rotation"), one.line.rotation)
+            drag = next(
+                (force.newtons for force in one.along if force.key == "idler_rotation"), one.line.roll_drag_forces
+            )
             drags.append(np.broadcast_to(drag, 2 * self.count))
         bare, laden = drags
         share = self.line.design_friction * (ROLL_DRAG_STANDSTILL_FACTOR - 1.0)
@@ -182,7 +184,7 @@ class CriterionLoadings(SectionLoadings):
                 continue
             try:
                 low, high = bulk_slip_limits(
-                    self.line.bulk_on_belt, inclination=stretch.inclination, gravity=self.line.gravity
+                    self.line.bulk_belt_friction, inclination=stretch.inclination, gravity=self.line.gravity
                 )
             except NoSolutionError:
                 slides[i] = True
@@ -239,7 +241,7 @@ class CriterionLoadings(SectionLoadings):
         rests = np.asarray(~(flags & slides).any(axis=-1))
         figures["slip on stopping"] = _where_present(rests, np.maximum(slowing, -starts.min(axis=0)) / hard)
         figures["slip on starting"] = _where_present(rests, np.maximum(starts.max(axis=0), 0.0) / fast)
-        pulls, pull = most > 0.0, self.full.frame.standing.pull
+        pulls, pull = most > 0.0, self.full.layout.standing.pull
         if pull.kind == "limited":
             asked = start_force_ratio(pull, np.where(pulls, most, 1.0), mass)
             figures["start of the motors"] = _where_present(pulls, asked)

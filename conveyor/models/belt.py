@@ -177,7 +177,7 @@ class Belt(LibraryItem):
     """Entry of the belt library, or item of a maker's list, that gives what is not given here."""
 
     @model_validator(mode="after")
-    def _consistent(self) -> Self:
+    def _check_consistency(self) -> Self:
         raise_problems("Belt", self._problems())
         return self
 

@@ -36,7 +36,7 @@ class LoadCase(Model):
     """Of the belt; belt.speed without."""
 
     @model_validator(mode="after")
-    def _share_of_part_load(self) -> Self:
+    def _check_share_of_part_load(self) -> Self:
         problems = []
         if self.loading == "part load" and self.share is None:
             problems.append(Problem(("share",), 'missing: loading "part load" needs its share of material.flow'))

@@ -100,10 +100,10 @@ class IdlerSet(Model):
     @property
     def set_mass(self) -> float:
         """Rotating mass of one set [kg]; the reduced mass where no other is given."""
-        return self._turning or self.rim_mass
+        return self._rotating_mass or self.rim_mass
 
     @property
-    def _turning(self) -> float:
+    def _rotating_mass(self) -> float:
         """Rotating mass of one set [kg]; 0 where only the reduced mass is given."""
         if self.rotating_mass is not None:
             return self._of_set(self.rotating_mass)
@@ -113,12 +113,12 @@ class IdlerSet(Model):
     @property
     def reduced_only(self) -> bool:
         """True if only the reduced mass is given."""
-        return not self._turning
+        return not self._rotating_mass
 
     @property
     def rim_mass(self) -> float:
         """Mass of one set reduced to the roll surface, for acceleration [kg]."""
-        return self._turning if self.reduced_mass is None else self._of_set(self.reduced_mass)
+        return self._rotating_mass if self.reduced_mass is None else self._of_set(self.reduced_mass)
 
     def _of_set(self, mass: Quantity) -> float:
         return si(mass) * (si(self.spacing) if is_kind(mass, "line mass") else 1.0)
@@ -149,7 +149,7 @@ class IdlerSet(Model):
         return self.middle if self.rolls in {3, 5} and place == self.rolls // 2 else self.roll
 
     @model_validator(mode="after")
-    def _consistent(self) -> Self:
+    def _check_consistency(self) -> Self:
         problems = [*self._roll_problems(), *self._whole_problems()]
         problems += overlap_problems(("spacing",), self.spacing, self)
         for name, shares in (("load_shares", self.load_shares), ("belt_shares", self.belt_shares)):
@@ -253,7 +253,7 @@ class IdlerSet(Model):
                 given = "drag" if roll.drag_law is None else "drag_law"
                 message = f"given beside drag {text(self.drag)} of the whole set; give one of the two"
                 yield Problem((name, given), message)
-        if self.reduced_mass is not None and 0.0 < self._turning < self.rim_mass:
+        if self.reduced_mass is not None and 0.0 < self._rotating_mass < self.rim_mass:
             message = f"got {text(self.reduced_mass)}, more than all that turns; correct one of the two"
             yield Problem(("reduced_mass",), message)
 

@@ -64,7 +64,7 @@ class Scenario(Model):
     """Of all drives here, instead of their own."""
 
     @model_validator(mode="after")
-    def _consistent(self) -> Self:
+    def _check_consistency(self) -> Self:
         problems = []
         if self.loading == "part load" and self.share is None:
             problems.append(Problem(("share",), 'missing: loading "part load" needs its share of material.flow'))

@@ -46,10 +46,9 @@ from conveyor.units import (
     si,
     text,
 )
-from conveyor.units.unit_systems import trade_of
+from conveyor.units.unit_systems import Trade, trade_of
 
 Carcasses = Literal["EP", "steel cord"]
-Series = Literal["metric", "US"]
 DriveLayout = Literal["head", "head, two pulleys", "head and tail", "head, two pulleys, and tail", "tail"]
 DesignWidth = Annotated[Length, Bounds(gt="100 mm", le="5 m")]
 DesignSpeed = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
@@ -133,7 +132,7 @@ class Sizes(Model):
 
 
 @cache
-def size_series(series: Series) -> Sizes:
+def size_series(series: Trade) -> Sizes:
     """Series of sizes from the library."""
     entries = libraries.library_entries("sizes_us" if series == "US" else "sizes").values()
     return Sizes.from_data({name: value for entry in entries for name, value in entry.fields.items()})
@@ -142,7 +141,7 @@ def size_series(series: Series) -> Sizes:
 class SiteRules(Model):
     """What a design has to keep; everything has a default, those without a source are general knowledge."""
 
-    series: Series | None = None
+    series: Trade | None = None
     """Library of sizes that parts are chosen from; that of report.units without it."""
     widths: tuple[DesignWidth, ...] = ()
     """Belt widths to choose from; all of the library without."""
@@ -334,7 +333,7 @@ class SizingDuty(Model):
             yield Problem(("operation", "duty"), "designs are ranked at their full load; give hours_per_year")
 
     @property
-    def series(self) -> Series:
+    def series(self) -> Trade:
         """Series of sizes that parts are chosen from."""
         return self.rules.series or trade_of(self.report.units)
 

@@ -250,7 +250,7 @@ def _calibration_warnings(conveyor: Conveyor) -> Iterator[Message]:
 
 def _size_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     """A flow far too small for the belt, and motors far too large for the conveyor."""
-    conveyor, line, motor = result.conveyor, result.line, result.balance.frame.motor
+    conveyor, line, motor = result.conveyor, result.line, result.balance.layout.motor
     share = line.flow / (line.speed * line.density * conveyor.flooded_section)
     if 0.0 < share < LEAST_FILLING:
         yield message(
@@ -269,7 +269,7 @@ def _size_warnings(result: CalculatedConveyor) -> Iterator[Message]:
 
 def _drive_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     drive, balance = result.conveyor.drive, result.balance
-    if balance.settled.least_force < 0.0:
+    if balance.equilibrium.least_force < 0.0:
         source = ", general knowledge: f 0.012 downhill over 0.020"
         if drive.least_friction is not None:
             source = ""
@@ -278,13 +278,13 @@ def _drive_warnings(result: CalculatedConveyor) -> Iterator[Message]:
         yield message(
             f"drive force {{}} at {percent(result.line.least_friction)} of the calculated friction, the least "
             f"(drive.least_friction{source}), {{}} at all of it; grip and brakes are checked at the least",
-            (balance.settled.least_force, "force"),
+            (balance.equilibrium.least_force, "force"),
             (balance.forces.total, "force"),
         )
     line = result.line
     if line.start_factor is None:
         usual = f"{START_FACTOR.low:g} to {START_FACTOR.high:g} are usual"
-        if not line.torque_curve or balance.settled.force <= 0.0:
+        if not line.torque_curve or balance.equilibrium.force <= 0.0:
             yield message(f"drive.start_factor not given: {START_FACTOR.value:g} assumed, {usual}")
         else:
             yield message(
@@ -341,7 +341,7 @@ def _slack_side_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     """A take-up before the drives, as the belt drives the motors."""
     take_up = result.conveyor.route.take_up
     confirmed = take_up is not None and "position" in take_up.model_fields_set
-    if result.line.take_up.on_slack_side and result.balance.settled.force < 0.0 and not confirmed:
+    if result.line.take_up.on_slack_side and result.balance.equilibrium.force < 0.0 and not confirmed:
         yield message(
             "the belt drives the motors: the slack side, where the take-up stands under every load, is before the "
             "drives; give route.take_up.position if it is built elsewhere"

@@ -416,11 +416,11 @@ def drift_diagram(loads: Sequence[tuple[str, Sequence[HorizontalCurveCheck]]], *
 def tension_diagram(balance: Balance, moving: StartAndStop, *, system: System) -> Figure:
     """Tension round the loop from the head, one line per motion state; the minimum for sag in grey."""
     figure, (axis,) = stacked_axes(1, _HEIGHT)
-    settled = balance.settled
+    equilibrium = balance.equilibrium
     shape = balance.line.loop
     force, length = display_unit("force", system, large=True), display_unit("length", system, large=True)
     way = length(np.repeat(shape.way, 2)[1:-1])
-    states = settled.states | moving.states
+    states = equilibrium.states | moving.states
     for k, state in enumerate(states.values()):
         tensions = np.stack([state.starts, state.ends], axis=1).ravel()
         x = np.concatenate([[0.0], way, way[-1:]])

@@ -202,14 +202,16 @@ def _csv_line(cells: Iterable[Any]) -> str:
 def point_table(campaign: ParametricStudy, system: System) -> StudyTable:
     """Table of a study's points."""
     figures = [(OUTPUTS[key].label, OUTPUTS[key].kind) for key in campaign.outputs]
-    return StudyTable("point", varied_fields(campaign.listed, campaign.plan.paths), figures, system, campaign.currency)
+    return StudyTable(
+        "point", varied_fields(campaign.require_list_plan(), campaign.plan.paths), figures, system, campaign.currency
+    )
 
 
 def design_table(campaign: ParametricStudy, system: System) -> StudyTable:
     """Table of a study's designs; its rows come from `design_rows`."""
     figures = [(figure.label, figure.kind) for figure in campaign.figures.values()]
     shown = (*figures, ("breaks", "text"), ("on the front", "verdict"))
-    return StudyTable("design", varied_fields(campaign.listed), shown, system, campaign.currency)
+    return StudyTable("design", varied_fields(campaign.require_list_plan()), shown, system, campaign.currency)
 
 
 def design_rows(study: StudySummary, designs: Iterable[Design]) -> Iterator[PointRow]:

@@ -12,7 +12,6 @@ from functools import cached_property, partial, wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 
-from conveyor import studies as study
 from conveyor.arguments.argument_types import check_arguments
 from conveyor.assessment import Assessment
 from conveyor.calculated_conveyor import CalculatedConveyor
@@ -20,11 +19,12 @@ from conveyor.checks import Check
 from conveyor.models import Conveyor
 from conveyor.pipeline import calculate
 from conveyor.remarks.result_warnings import analysis_warnings
+from conveyor.studies import CalculatedStudies, calculate_studies
 from conveyor.studies import duty as duty_study
 from conveyor.studies import input_ranges as range_study
 from conveyor.studies import load_cases as case_study
 from conveyor.studies import states as state_study
-from conveyor.studies.loads import EveryLoad, Progress
+from conveyor.studies.loads import EveryLoad, StudyProgress
 from conveyor.units.unit_systems import report_system
 
 if TYPE_CHECKING:
@@ -90,7 +90,9 @@ class Analysis(CalculatedConveyor):
         if states is None:
             return self
         own = states.own
-        return replace(self, contacts=own.contacts, balance=own.balance, fixed=own.fixed, convergence=own.convergence)
+        return replace(
+            self, contacts=own.contacts, balance=own.balance, rubber_free=own.rubber_free, convergence=own.convergence
+        )
 
     def assess(self, studies: Studies | None = None) -> Assessment:
         """Checks, governing loads, range of power and take-up, with `conveyor.analyse_studies` if given."""
@@ -167,7 +169,7 @@ class Analysis(CalculatedConveyor):
         Raises
         ------
         InputError
-            The path cannot be written, or the system is neither SI nor US.
+            The path cannot be written, or the system is none of these.
         """
         from conveyor.report.excel import write_workbook
 
@@ -220,7 +222,7 @@ class Analysis(CalculatedConveyor):
         Raises
         ------
         InputError
-            The path cannot be written, or the system is neither SI nor US.
+            The path cannot be written, or the system is none of these.
         """
         from conveyor.report.html import write_page
 
@@ -332,7 +334,7 @@ class UncertaintyStudy(range_study.CalculatedRanges):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Studies(study.CalculatedStudies):
+class Studies(CalculatedStudies):
     """Studies of one conveyor, each with its tables; None for those that the spec does not request."""
 
     states: StateStudy | None = None
@@ -383,7 +385,7 @@ study_ranges = results_function("study_ranges", range_study.analyse_ranges, Unce
 
 
 def analyse_studies(
-    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
+    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: StudyProgress | None = None
 ) -> Studies:
     """Calculate the load states and what the spec requests: load cases, duty, ranges, scenarios.
 
@@ -412,7 +414,7 @@ def analyse_studies(
     >>> conveyor.analyse_studies(conveyor.load("examples/specs/shuttle.yaml"))
     Studies(states, flooded)
     """
-    made = study.calculate_studies(conveyor, given, progress=progress)
+    made = calculate_studies(conveyor, given, progress=progress)
     return Studies(
         states=None if made.states is None else as_results_class(made.states, StateStudy),
         cases=None if made.cases is None else as_results_class(made.cases, CaseStudy),
@@ -424,7 +426,7 @@ def analyse_studies(
 
 
 def _scenario_results(
-    conveyor: Conveyor, made: study.CalculatedStudies, progress: Progress | None
+    conveyor: Conveyor, made: CalculatedStudies, progress: StudyProgress | None
 ) -> CalculatedDynamics:
     """Simulated scenarios of a spec, at the take-up setting of its loads."""
     from conveyor.dynamics.simulation import simulate_scenarios

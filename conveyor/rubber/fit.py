@@ -121,7 +121,7 @@ class PronyFit:
         return _spent_share(self.freedom, self.rows)
 
     @property
-    def errors(self) -> FloatArray:
+    def relative_errors(self) -> FloatArray:
         """Relative errors of E', then of E'', series over data minus one, shape `(2, n)` [-]."""
         rows, omega = self.rows, self.rows.omega
         return np.array([self.series.storage(omega) / rows.storage, self.series.loss(omega) / rows.loss]) - 1.0

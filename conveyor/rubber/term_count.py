@@ -131,7 +131,7 @@ class PenalisedFit:
 
         `bend` is the target of the penalised curvatures, shape `(bends,)`; 0 without it [-].
         """
-        return self._solved(target, self._stacked(strength), bend)
+        return self._solved(target, self._penalised_matrix(strength), bend)
 
     def _solved(self, target: FloatArray, matrix: FloatArray, bend: FloatArray | None = None) -> FloatArray:
         """Moduli as `solve`, from the matrix of its strength."""
@@ -150,7 +150,7 @@ class PenalisedFit:
 
     def judged(self, target: FloatArray, strength: float) -> PenalisedSolution:
         """Solve, with effective parameters and residual."""
-        matrix = self._stacked(strength)
+        matrix = self._penalised_matrix(strength)
         moduli = self._solved(target, matrix)
         active = moduli > 0.0 if self.held is None else moduli[1:] > 0.0
         freedom = float(np.count_nonzero(active))
@@ -161,7 +161,7 @@ class PenalisedFit:
         error = self.columns @ weights + self.fixed - target
         return PenalisedSolution(moduli, freedom, float(np.sqrt(np.mean(error**2))))
 
-    def _stacked(self, strength: float) -> FloatArray:
+    def _penalised_matrix(self, strength: float) -> FloatArray:
         if strength == 0.0:
             return self.triangle
         return np.vstack([self.triangle, np.sqrt(strength) * self.bends])

@@ -301,8 +301,8 @@ def _take_up_setting(before: float, loads: Sequence[CalculatedConveyor]) -> floa
     slack = max(-state.smallest for one in loads for state in one.motion_states)
     if slack <= 0.0 and before == 0.0:
         return 0.0
-    setting = max(one.balance.settled.setting for one in loads)
-    needed = max(setting + max(slack, 0.0), *(one.balance.settled.needed for one in loads))
+    setting = max(one.balance.equilibrium.setting for one in loads)
+    needed = max(setting + max(slack, 0.0), *(one.balance.equilibrium.needed for one in loads))
     return before if needed <= before * (1.0 + RTOL) else TAKE_UP_STEP * math.ceil(needed / TAKE_UP_STEP)
 
 
@@ -384,7 +384,7 @@ def _powers_by_basis(task: SizingTask, one: CalculatedConveyor) -> Iterator[floa
     balance, basis = one.balance, task.rules.basis
     estimate = balance.cema if basis == "cema classic" else balance.classical
     if basis != "viscoelastic" and estimate is not None:
-        whole = balance.frame.shaft_power(estimate.motor_force)
+        whole = balance.layout.shaft_power(estimate.motor_force)
         yield from (abs(drive.share * whole) for drive in one.line.drives)
 
 

@@ -135,7 +135,7 @@ def _spacing_forces(task: SizingTask, found: CalculatedConveyor, at: int) -> tup
 
 def _lowest_tension(one: CalculatedConveyor, at: int) -> float:
     """Lowest steady tension of a stretch [N]; `at` counts as in the line, the loop begins at the head."""
-    steady, i = one.balance.settled.steady, (at + one.line.count) % (2 * one.line.count)
+    steady, i = one.balance.equilibrium.steady, (at + one.line.count) % (2 * one.line.count)
     return float(min(steady.starts[i], steady.ends[i]))
 
 
@@ -172,9 +172,11 @@ def _sag_reserve(design: SizedDesign) -> float:
     return max(
         0.0,
         min(
-            one.balance.settled.setting
+            one.balance.equilibrium.setting
             - max(
-                needed for name, needed in one.balance.settled.conditions.items() if not name.startswith("sag, carry")
+                needed
+                for name, needed in one.balance.equilibrium.conditions.items()
+                if not name.startswith("sag, carry")
             )
             for one in design.pair
         ),

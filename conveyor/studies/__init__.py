@@ -21,7 +21,7 @@ from conveyor.studies.load_cases import (
     governing_loads,
     recommended_motors,
 )
-from conveyor.studies.loads import Progress, design_loads, every_load
+from conveyor.studies.loads import StudyProgress, design_loads, every_load
 from conveyor.studies.states import CalculatedStates
 
 
@@ -73,7 +73,7 @@ class CalculatedStudies:
 
 
 def calculate_studies(
-    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
+    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: StudyProgress | None = None
 ) -> CalculatedStudies:
     """Calculate the load states and the studies that the spec requests.
 

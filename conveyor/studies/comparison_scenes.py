@@ -226,7 +226,7 @@ def _compared_scene(name: str, one: CalculatedConveyor, strands: frozenset[Stran
     forces, power = balance.forces, balance.power
     indented = balance.along[0].by_strand()
     changed = math.fsum(indented[strand] for strand in strands) / (1.0 - (one.line.flexure_share or 0.0))
-    motor = balance.frame.motor
+    motor = balance.layout.motor
     powers = [sorted(motor(forces.total + (factor - 1.0) * changed) for factor in band) for band in bands]
     whole, own = ((low, high) for low, high in powers)
     return ComparedScene(
@@ -242,7 +242,7 @@ def _compared_scene(name: str, one: CalculatedConveyor, strands: frozenset[Stran
         motor_high=whole[1],
         own_low=own[0],
         own_high=own[1],
-        largest_tension=balance.settled.largest,
+        largest_tension=balance.equilibrium.largest,
         energy_per_tonne_km=power.energy_per_tonne_km,
         energy_per_year=None if year is None else year.energy,
         cost_per_year=None if year is None else year.cost,
@@ -281,7 +281,7 @@ def _indentation_band(
         return (1.0, 1.0), (1.0, 1.0)
     base = compound.series(temperature)
     contact, load = roll.curve.contact, roll.load.peak_line_load
-    problems = [to_problem(replace(contact, rubber=rubber), load) for rubber in (base, *replicas)]
+    problems = [to_problem(replace(contact, series=rubber), load) for rubber in (base, *replicas)]
     friction = np.array([solution.friction for solution in solve_many(problems, _BAND_RTOL, throw=True)])
     band = quantile_band(friction[1:] / friction[0])
     return band, band

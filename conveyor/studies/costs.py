@@ -161,5 +161,5 @@ def conveyor_parts(one: CalculatedConveyor) -> Parts | None:
         drives=float(len(line.drives)),
         power=math.fsum(drive.power or 0.0 for drive in line.drives),
         pulley_mass=math.fsum(pulley.mass for pulley in line.pulleys),
-        take_up=one.balance.settled.setting,
+        take_up=one.balance.equilibrium.setting,
     )

@@ -220,7 +220,7 @@ def summarise_study(campaign: ParametricStudy, designs: Iterable[Design]) -> Stu
     designs : iterable of Design
         All designs; only numbers of each are kept, and the best ten in full.
     """
-    plan = campaign.listed
+    plan = campaign.require_list_plan()
     every = varied_fields(plan)
     fields = tuple(field for field in every if len(set(_field_values(plan, field.path))) > 1) or every
     sought = study_objectives(plan, campaign.figures, campaign.base)

@@ -139,8 +139,8 @@ class SolvedRuns:
         own_band = self.found[0].conveyor.drive.design_friction is None
         loops = [
             OpenLoop(
-                one.balance.frame.designed_for(1.0) if own_band else one.balance.frame,
-                forces_along_belt(one.line, one.fixed, one.contacts.indentation, calibration=calibration),
+                one.balance.layout.designed_for(1.0) if own_band else one.balance.layout,
+                forces_along_belt(one.line, one.rubber_free, one.contacts.indentation, calibration=calibration),
                 one.balance.unit_main,
             )
             for one in runs
@@ -180,7 +180,7 @@ def free_factors(scene: SolvedRuns, factors: Sequence[str] | None) -> tuple[Grou
     notes = []
     forces = {name: max(abs(_total_force(one, name)) for one in scene.found) for name in CALIBRATED_FORCES}
     free = [name for name in CALIBRATED_FORCES if forces[name] > 0.0]
-    if "flexure" in free and scene.found[0].fixed.flexure is None:
+    if "flexure" in free and scene.found[0].rubber_free.flexure is None:
         if factors is None:
             free.remove("flexure")
         notes.append(

@@ -87,7 +87,7 @@ def flooded_belt(own: CalculatedConveyor, kept: ReuseCache | None = None) -> Flo
         flooded = with_case(filled, LoadCase.from_data({"name": "flooded", "loading": "full"}))
     except ConveyorError as error:
         return FloodedBelt(section, held, None, str(error))
-    variant = Variant(flooded, own.temperature, take_up=own.balance.settled.take_up)
+    variant = Variant(flooded, own.temperature, take_up=own.balance.equilibrium.take_up)
     (found,) = calculate_many([variant], _RTOL, known=own, kept=kept)
     if not isinstance(found, CalculatedConveyor):
         return FloodedBelt(section, held, None, str(found))

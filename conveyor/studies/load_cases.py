@@ -69,7 +69,7 @@ class Load:
     @cached_property
     def motors(self) -> tuple[float, float]:
         """Motor shaft power with the friction at both ends of the band [W]."""
-        low, high = map(self.found.balance.frame.motor, self.forces)
+        low, high = map(self.found.balance.layout.motor, self.forces)
         return low, high
 
     @cached_property
@@ -363,7 +363,7 @@ _FIGURES: Final[dict[str, tuple[str, str, bool, Callable[[Load], float]]]] = {
         "required take-up tension",
         "force",
         True,
-        lambda r: r.found.balance.settled.needed,
+        lambda r: r.found.balance.equilibrium.needed,
     ),
     "largest_roll_load": ("maximum roll load", "force", True, lambda r: r.heaviest_roll[0]),
     "largest_indentation": (

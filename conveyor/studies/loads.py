@@ -18,7 +18,7 @@ from conveyor.studies.one_take_up import at_one_take_up
 from conveyor.studies.states import CalculatedStates, load_states
 from conveyor.units.sentences import Message, escape_braces, message
 
-Progress: TypeAlias = Callable[[str, int, int], None]
+StudyProgress: TypeAlias = Callable[[str, int, int], None]
 """Called with a name, the items done and their total."""
 
 
@@ -99,7 +99,7 @@ def every_load(
     conveyor: Conveyor,
     given: CalculatedConveyor | None = None,
     *,
-    progress: Progress | None = None,
+    progress: StudyProgress | None = None,
     kept: ReuseCache | None = None,
 ) -> EveryLoad:
     """Calculate the load states and load cases of a spec.

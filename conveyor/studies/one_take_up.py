@@ -79,10 +79,10 @@ def _at_one_setting(
         asking = [True, *(result.covered for result in results), *(True for _ in states.states)]
         own, *closed = at_common_setting([*loads, *(state.balance for state in states.states)], asking)
         found = [replace(r.found, balance=one) for r, one in zip(results, closed, strict=False)]
-        as_given, setting = replace(before, balance=own), own.settled.setting
-        near = math.isclose(before.balance.settled.setting, setting, rel_tol=before.line.rtol)
+        as_given, setting = replace(before, balance=own), own.equilibrium.setting
+        near = math.isclose(before.balance.equilibrium.setting, setting, rel_tol=before.line.rtol)
         if before.line.has_tension_coupling and not near:
-            as_given, *found = _reload_rolls([as_given, *found], own.settled.take_up)
+            as_given, *found = _reload_rolls([as_given, *found], own.equilibrium.take_up)
         if cases is not None:
             every = tuple(replace(r, found=one) for r, one in zip(results, found, strict=True))
             cases = replace(cases, results=every, as_given=as_given)
@@ -188,7 +188,7 @@ def _criterion_ranks(load: Load, checks: Iterable[Check]) -> Iterator[tuple[tupl
     if load.found.line.take_up.travel is not None or load.found.take_up.travel is not None:
         lengths = load.found.line.loop.length
         means = [state.mean(lengths) for state in load.found.motion_states]
-        steady = load.found.balance.settled.steady.mean(lengths)
+        steady = load.found.balance.equilibrium.steady.mean(lengths)
         for name, low, high in (
             ("mean tension", min(means), max(means)),
             ("mean tension, steady", steady, steady),

@@ -63,7 +63,7 @@ _MARK: Final = 0x636F6E77
 """SQLite application id of a file of answers with checksums."""
 _COLUMNS: Final = "(key BLOB PRIMARY KEY, answer BLOB, checksum INTEGER) WITHOUT ROWID"
 
-Progress: TypeAlias = Callable[[int, int, int], None]
+PointProgress: TypeAlias = Callable[[int, int, int], None]
 """Called with the points done, their total, and the number without an answer in this run."""
 Point: TypeAlias = tuple[int, tuple[Value, ...], Answer]
 """Number of a point, its values of `plan.paths`, its answer."""
@@ -131,8 +131,7 @@ class ParametricStudy:
         ]
         return (*self.compounds.values(), *kept)
 
-    @property
-    def listed(self) -> StudyPlan:
+    def require_list_plan(self) -> StudyPlan:
         """The plan, if it lists its points.
 
         Raises
@@ -366,7 +365,7 @@ def run_study(
     *,
     executor: Executor | None = None,
     workers: int = 1,
-    progress: Progress | None = None,
+    progress: PointProgress | None = None,
     answered: BatchCallback | None = None,
 ) -> None:
     """Calculate every point that has no stored answer.
@@ -395,7 +394,11 @@ def run_study(
     ConveyorError
         A worker was lost, or answers cannot be written; what is done is kept, the same call goes on from there.
     """
-    whole, every = (campaign.listed.count, campaign.listed.points()) if points is None else (len(points), points)
+    whole, every = (
+        (campaign.require_list_plan().count, campaign.require_list_plan().points())
+        if points is None
+        else (len(points), points)
+    )
     require_workers(workers)
     asked: dict[Future[list[Answer]], Batch] = {}
     new, most = (
@@ -469,7 +472,7 @@ def point_results(campaign: ParametricStudy, known: ResultStore) -> Iterator[Poi
 
 def keyed_points(campaign: ParametricStudy) -> Iterator[tuple[int, KeyedPoint]]:
     """Every point with its key and number from 1, in the order of the plan."""
-    for number, point in enumerate(campaign.listed.points(), start=1):
+    for number, point in enumerate(campaign.require_list_plan().points(), start=1):
         yield number, (campaign.key(point), point)
 
 
@@ -481,7 +484,7 @@ def point_result(campaign: ParametricStudy, known: ResultStore, number: int, key
 
 def design_results(campaign: ParametricStudy, known: ResultStore) -> Iterator[Design]:
     """Every design over its states, in the order of the plan."""
-    for number, design in enumerate(campaign.listed.designs(), start=1):
+    for number, design in enumerate(campaign.require_list_plan().designs(), start=1):
         yield design_result(campaign, known, design, number)
 
 

@@ -141,7 +141,7 @@ class CalculatedStates:
     @property
     def take_up(self) -> TakeUpSetting:
         """Setting and side of the take-up in every state."""
-        return self.own.balance.settled.take_up
+        return self.own.balance.equilibrium.take_up
 
     @property
     def setting(self) -> float:
@@ -318,7 +318,7 @@ def _full_and_empty(
             refused.append(StateRefusal(name, temperature, str(error)))
     solved: dict[tuple[float, str], CalculatedConveyor] = {k: known[k] for k in asked if k in known}
     solved |= {key: own for key, one in asked.items() if one is conveyor}
-    take_up = own.balance.settled.take_up
+    take_up = own.balance.equilibrium.take_up
     missing = {key: Variant(one, take_up=take_up) for key, one in asked.items() if key not in solved}
     if missing:
         answers = calculate_many(list(missing.values()), progress=progress, known=own, kept=kept)
@@ -382,7 +382,7 @@ def _calculate_in_full(
             made.append(error)
         else:
             friction = adding[temperature].line.design_friction
-            variants[i] = Variant(one, take_up=own.balance.settled.take_up, design_friction=friction)
+            variants[i] = Variant(one, take_up=own.balance.equilibrium.take_up, design_friction=friction)
             made.append(own)
     if variants:
         for i, answer in zip(variants, calculate_many(list(variants.values()), known=own, kept=kept), strict=True):

@@ -289,7 +289,7 @@ def _soften_contacts(
         return [roll for _ in loads]
     swept = compound.swept_series(temperature)
     works = [SofteningCover(roll, load, factors, temperature, swept) for load in loads]
-    return [replace(roll, rubber=series) for series, _ in soften_or_raise(works)]
+    return [replace(roll, series=series) for series, _ in soften_or_raise(works)]
 
 
 def _fill_row(

@@ -229,6 +229,11 @@ def _unit_of(kind: str, spelled: str | None, digits: str, phrase: str, *, exact:
     """Unit of a kind by its spelling."""
     most = KINDS[kind].most
     if spelled is None or spelled not in UNITS:
+        if (spelled or NO_UNIT) not in _REPORT_UNITS:
+            raise LookupError(
+                f'unit "{spelled}" of {kind}: specs do not know it; give its size in _REPORT_UNITS of '
+                "units/presentation.py, or, for specs to know it, its spelling in units/quantity_kinds.py"
+            )
         return Unit(spelled, digits, _REPORT_UNITS[spelled or NO_UNIT], most=most, phrase=phrase)
     if kind == "temperature":
         one = si(quantity("1 K")) if spelled in {"degC", "K"} else 5.0 / 9.0

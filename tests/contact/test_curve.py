@@ -89,7 +89,7 @@ def test_peak_error_holds_where_rubber_flows_in_lengths_that_no_order_of_the_cur
 
 def test_peak_error_holds_for_a_cold_cover_of_the_shelf():
     series = compound("s100").series(263.15)
-    roll = RollContact(radius=0.0795, spacing=1.2, cover_thickness=0.01, speed=1.0, rubber=series)
+    roll = RollContact(radius=0.0795, spacing=1.2, cover_thickness=0.01, speed=1.0, series=series)
     curve = indentation_curve(roll, 250.0, 4500.0, rtol=1e-4)
     loads = np.geomspace(250.0, 4500.0, 9)
     read = curve.at(loads)

@@ -31,14 +31,14 @@ def test_complementarity(name):
     problem = SCENES[name]
     found = solve_grid(problem, 2048)
     turn = found.x / problem.rho
-    w = found.surface[np.round(found.x / (2.0 * np.pi / found.points)).astype(int) % found.points]
+    w = found.surface_displacement[np.round(found.x / (2.0 * np.pi / found.points)).astype(int) % found.points]
     gap = w - found.depth + 1.0 - np.sqrt(1.0 - turn**2)
     depth = abs(found.depth)
     assert found.pressure.min() >= 0.0
     assert gap.min() >= -1e-10 * depth
     assert np.abs(gap[found.pressure > 0.0]).max() <= 1e-10 * depth
     assert found.pressure.sum() / found.points == pytest.approx(problem.pressure, rel=1e-12)
-    assert abs(found.surface.mean()) <= 1e-12 * depth
+    assert abs(found.surface_displacement.mean()) <= 1e-12 * depth
 
 
 MESHES = (240, 248, 256, 264, 272)  # an edge falls anywhere between two nodes

@@ -77,7 +77,7 @@ def test_what_is_told_holds_for_sharp_and_broad_rubber_and_to_some_purpose():
     problems = [strips_and_edges(rng) for _ in range(30)]
     for name, celsius, thickness in (("s100", -10.0, 0.01), ("s100", 20.0, 0.004), ("s100", 40.0, 0.01)):
         rubber = compound(name).series(273.15 + celsius)
-        roll = RollContact(radius=0.0795, spacing=1.2, cover_thickness=thickness, speed=4.0, rubber=rubber)
+        roll = RollContact(radius=0.0795, spacing=1.2, cover_thickness=thickness, speed=4.0, series=rubber)
         problems += [to_problem(roll, load) for load in (250.0, 4500.0)]
     over = []
     for rough, fine in zip(solve_many(problems, 1e-4), solve_many(problems, 1e-9), strict=True):

@@ -260,7 +260,7 @@ def test_the_least_brake_stops_a_downhill_belt_in_the_time_of_its_scenario():
     found = size_scenario(conveyor, Scenario.from_data(stop), "brake")
     (setup,), _ = scenario_sizing.prepare_setups(conveyor, [Scenario.from_data(stop)])
     mass = setup.loop.mass.sum() + setup.rims.sum() + sum(lump.mass for lump in setup.loop.lumps)
-    hold = -setup.loop.steady.balance.settled.force
+    hold = -setup.loop.steady.balance.equilibrium.force
     assert found.value == pytest.approx(hold + mass * 4.0 / 20.0, rel=0.1)
     assert found.governs.text() == "stopping"
     assert found.setup.brakes == pytest.approx([found.value], rel=1e-12)

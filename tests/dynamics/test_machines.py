@@ -87,8 +87,8 @@ def test_motors_without_a_power_bear_their_share_of_the_largest_steady_force(sha
     drive = first | {"further_drives": others} if others else first | {"share": None}
     conveyor = from_data(DATA | {"drive": {name: value for name, value in drive.items() if value is not None}})
     ((setup,), _) = prepare_setups(conveyor, [Scenario.from_data(START | {"name": "empty", "loading": "empty"})])
-    full = setup.given.steady.balance.settled.force
-    assert full > 1.2 * setup.loop.steady.balance.settled.force
+    full = setup.given.steady.balance.equilibrium.force
+    assert full > 1.2 * setup.loop.steady.balance.equilibrium.force
     assert setup.rated == pytest.approx([max(share, 1.0 / len(shares)) * full for share in shares], rel=1e-9)
 
 
@@ -117,7 +117,7 @@ def test_a_running_belt_has_the_steady_tensions_on_both_sides_of_its_drives(chan
     """Half a cell of each strand, and what stands there as the belt meets it: skirts come behind a tail drive."""
     drive = DATA["drive"] | MASSES | changes.get("drive", {})
     found = followed(line(drive=drive, route=changes.get("route", {})), NOTHING, step=step)
-    steady = found.setup.loop.steady.balance.settled.steady
+    steady = found.setup.loop.steady.balance.equilibrium.steady
     for name in ("arriving", "leaving"):
         told = [getattr(one, name) for one in steady.drives]
         # a boundary of stretches that lies within half a cell of a drive has its share on both sides
@@ -231,7 +231,7 @@ def test_a_drive_that_loses_power_leaves_its_share_to_the_other():
     drive = DATA["drive"] | MASSES | {"further_drives": [SECOND | MASSES]}
     stop = {"begins": "running", "events": [{"do": "power off", "drives": ["second"]}], "duration": "40 s"}
     found = followed(line(drive=drive, route=TAUT), stop, step=0.1)
-    motor, whole = found.record.drives["motor"], found.setup.loop.steady.balance.settled.force
+    motor, whole = found.record.drives["motor"], found.setup.loop.steady.balance.equilibrium.force
     assert np.all(motor[1:, 1] == 0.0)
     assert motor[-1, 0] == pytest.approx(whole, rel=0.02)
     assert float(found.torque[:, 0].max()) <= 1.6 + 1e-9

@@ -27,14 +27,14 @@ RIGID = RollContact(
     spacing=1.2,
     cover_thickness=6e-3,
     speed=4.8,
-    rubber=PronySeries(3e6, [], []),
+    series=PronySeries(3e6, [], []),
     support="half-space",
 )
 LOAD = 10.0 * np.pi
 HERTZ = 1e-4
 """Hertz's parabola and lone roll, against the circle, (a/R)²/8 of them, and rolls 1.2 m apart, (2 π a/λ)²."""
 
-LOSSY = RollContact(radius=0.08, spacing=1.2, cover_thickness=6e-3, speed=4.8, rubber=PronySeries(8e6, [4e6], [1e-3]))
+LOSSY = RollContact(radius=0.08, spacing=1.2, cover_thickness=6e-3, speed=4.8, series=PronySeries(8e6, [4e6], [1e-3]))
 
 
 @pytest.mark.parametrize(("load", "wider"), [(LOAD, 1.0), (4.0 * LOAD, 2.0)])
@@ -90,7 +90,7 @@ def test_a_rubber_without_loss_excites_nothing():
 @pytest.mark.parametrize(("at", "speed", "load"), [(263.15, 1.0, 300.0), (293.15, 6.0, 3000.0)])
 def test_terms_that_a_roll_does_not_tell_apart_change_no_more_than_allowed(at, speed, load):
     rubber = shelf.compound("standard-cover").series(at)
-    roll = RollContact(radius=0.0795, spacing=1.2, cover_thickness=8e-3, speed=speed, rubber=rubber)
+    roll = RollContact(radius=0.0795, spacing=1.2, cover_thickness=8e-3, speed=speed, series=rubber)
     errors = (1e-3, 1e-5)
     rolls = [roll, *(less(roll, load, error) for error in errors)]
     whole, *merged = indentation_resistances(rolls, [load] * 3, 1e-7)
@@ -102,9 +102,9 @@ def test_terms_that_a_roll_does_not_tell_apart_change_no_more_than_allowed(at, s
 def less(roll, load, error):
     """The roll on its cover of fewer terms."""
     fastest, slowest = resolved_relaxation_times(roll, load, error)
-    fewer = roll.rubber.merged(fastest=fastest, slowest=slowest)
-    assert fewer.times.size < roll.rubber.times.size - 8
-    return replace(roll, rubber=fewer)
+    fewer = roll.series.merged(fastest=fastest, slowest=slowest)
+    assert fewer.times.size < roll.series.times.size - 8
+    return replace(roll, series=fewer)
 
 
 def test_loads_outside_a_curve_are_refused_in_newtons():
@@ -114,7 +114,7 @@ def test_loads_outside_a_curve_are_refused_in_newtons():
         spacing=1.5,
         cover_thickness=0.005,
         speed=5.0,
-        rubber=rubber,
+        series=rubber,
         poisson=0.5,
         support="confined",
     )

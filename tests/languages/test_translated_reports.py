@@ -31,6 +31,10 @@ from conveyor.text.markup import Markup, element, join_html
 ROOT = Path(__file__).parents[2]
 SPECS = ROOT / "examples" / "specs"
 EVERY = sorted(path.stem for path in SPECS.glob("*.yaml"))
+WHERE = (
+    "a text without a translation: an entry in every conveyor/languages/*.po, in the order of its msgid, with {} for "
+    "figures and names"
+)
 
 
 @functools.cache
@@ -53,7 +57,7 @@ def test_tables_of_every_example_are_translated(name):
                     column.get(row)  # cells are translated as they are read
         for remark in report["remarks"].rows:
             words.text(remark.text)
-        assert words.missing == {}, language
+        assert words.missing == {}, f"{language}: {WHERE}"
 
 
 @pytest.mark.parametrize(
@@ -69,19 +73,19 @@ def test_a_note_of_a_compound_stands_behind_its_figure(language, at):
     report = contents("overland").in_language(language)
     said = [report.translator.text(row.text) for row in report["remarks"].rows]
     assert sum(at in one for one in said) == 2
-    assert report.translator.missing == {}
+    assert report.translator.missing == {}, WHERE
 
 
 def test_page_and_workbook_are_translated_whole(tmp_path):
     german = contents("overland_10km").in_language("de")
     page = str(html.build_page(german))
-    assert german.translator.missing == {}
+    assert german.translator.missing == {}, WHERE
     assert '<html lang="de">' in page
     assert "Ausreichend wie vorgegeben" in page
     assert "5,5 m/s" in page
     assert "5.5 m/s" not in re.sub(r'<t[dh][^>]*translate="no".*?</t[dh]>', "", page)  # the spec's own stays
     path = excel.write_workbook(german, tmp_path / "german.xlsx")
-    assert german.translator.missing == {}
+    assert german.translator.missing == {}, WHERE
     book = openpyxl.load_workbook(path)
     assert "Zusammenfassung" in book.sheetnames
     assert {"table_checks", "what_if_motor_reserve"} <= set(book.defined_names)  # links hold in every language
@@ -165,7 +169,7 @@ def test_every_sentence_of_checks_and_remarks_is_translated(folder, language):
         filled = GAP.sub(lambda _, numbers=numbers: f"{next(numbers)}", sentence.replace("{{", "{").replace("}}", "}"))
         assert sorted(re.findall(r"\d", words.text(filled))) == sorted(re.findall(r"\d", filled)), filled
     assert found > {"checks": 100, "remarks": 40, "dynamics": 10}[folder]
-    assert words.missing == {}
+    assert words.missing == {}, WHERE
 
 
 def _literals(tree):
@@ -188,7 +192,7 @@ def test_every_piece_of_a_sentence_of_checks_is_translated():
                 if all(_missing("de", words) for words in (one, one.strip(" ,;"))):
                     unknown.append(one)
     assert found > 200
-    assert unknown == []
+    assert unknown == [], WHERE
 
 
 def _missing(language, text):
@@ -218,7 +222,7 @@ def test_failed_curves_and_transitions_are_translated(language):
                 needed = "at least 1.32 m are needed (ISO 5293 taken on to every strip)"
                 translated = words.text(f"{place} transition: {bad} over 0.9 m; {needed}{cure}")
                 assert ("0,9" in translated) == (language != "zh")
-    assert words.missing == {}
+    assert words.missing == {}, WHERE
 
 
 def test_notes_on_reading_laboratory_files_are_translated():
@@ -238,7 +242,7 @@ def test_notes_on_reading_laboratory_files_are_translated():
             called = node.func if isinstance(node, ast.Call) else None
             if isinstance(called, ast.Attribute) and (called.attr, ast.unparse(called.value)) == ("append", "notes"):
                 words.text(GAP.sub("7", _sentence(node.args[0])))
-    assert words.missing == {}
+    assert words.missing == {}, WHERE
 
 
 def test_glossary_of_fits_is_translated():
@@ -246,7 +250,7 @@ def test_glossary_of_fits_is_translated():
     for pair in GLOSSARY:
         for text in pair:
             words.text(text)
-    assert words.missing == {}
+    assert words.missing == {}, WHERE
 
 
 def test_marked_elements_and_styles_stay():
@@ -308,7 +312,7 @@ def test_every_kind_of_carcass_is_translated(language):
     for kind in get_args(Carcass.model_fields["kind"].annotation):
         words.text(f"{kind}, 1 ply, breaking 400 N/mm")
         words.text(f"{kind}, 4 plies, rated 330 PIW")
-    assert words.missing == {}
+    assert words.missing == {}, WHERE
 
 
 @pytest.mark.parametrize("language", TRANSLATED)
@@ -316,4 +320,4 @@ def test_every_default_with_a_band_is_translated(language):
     words = report_translator(language)
     for one in DEFAULTS:
         words.text(one.what)
-    assert words.missing == {}
+    assert words.missing == {}, WHERE

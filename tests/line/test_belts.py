@@ -99,10 +99,10 @@ def test_a_stretch_feels_the_mean_over_its_tensions(found):
 
 def test_tension_and_indentation_agree(found):
     assert isinstance(found.contacts, BeltContacts)
-    again = pull_per_width(found.line, found.balance.settled.steady, STRETCH_QUADRATURE[0])
+    again = pull_per_width(found.line, found.balance.equilibrium.steady, STRETCH_QUADRATURE[0])
     largest = found.balance.tensions.largest / found.line.belt.width
     assert again == pytest.approx(found.contacts.pulls, abs=RTOL * largest)
-    assert found.convergence.settled(RTOL)
+    assert found.convergence.has_converged(RTOL)
     assert found.balance.forces.indentation == pytest.approx(
         sum(give.force for give in found.contacts.gives), rel=1e-12
     )
@@ -145,7 +145,7 @@ def test_a_belt_turned_over_runs_on_its_bottom_cover():
     conveyor = given()
     turned = calculate(conveyor.replace(route=conveyor.route.replace(turned_over=True)))
     top = si(conveyor.belt.top_cover.thickness)
-    assert {cover.other[0] for cover in turned.contacts.covers.values()} == {top}
+    assert {cover.opposite_cover[0] for cover in turned.contacts.covers.values()} == {top}
 
 
 def test_what_stands_in_is_said(found):
@@ -168,7 +168,7 @@ def test_what_a_belt_cannot_be_is_refused():
 
 
 def test_a_slack_belt_has_no_answer(found):
-    steady = found.balance.settled.steady
+    steady = found.balance.equilibrium.steady
     slack = replace(steady, starts=steady.starts - steady.largest)
     with pytest.raises(NoSolutionError, match="no tension is left to hold the belt in section"):
         pull_per_width(found.line, slack, STRETCH_QUADRATURE[0])

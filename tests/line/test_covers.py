@@ -88,7 +88,7 @@ def test_compounds_of_the_bottom_cover_share_the_line_and_the_return_rolls(line)
     assert one.contacts.covers["return"] is other.contacts.covers["return"]
     assert set(one.contacts.curves_of("return")) == set(other.contacts.curves_of("return"))
     assert not set(one.contacts.curves_of("carry")) & set(other.contacts.curves_of("carry"))
-    assert one.contacts.covers["carry"].rubber is not other.contacts.covers["carry"].rubber
+    assert one.contacts.covers["carry"].series is not other.contacts.covers["carry"].series
 
 
 def test_the_fastest_time_resolved_is_that_of_the_roll_that_resolves_most(line):

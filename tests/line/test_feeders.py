@@ -170,9 +170,9 @@ def test_the_take_up_suits_the_start_under_the_filled_hopper(feeder, kind):
     grip = filled_grip(found)
     assert not grip.failed
     assert grip.calculated == pytest.approx(grip.required, rel=1e-9)
-    setting = found.balance.settled.setting
-    asked = found.balance.settled.conditions["grip, drive, hopper filled"]
-    assert found.balance.settled.governing == "grip, drive, hopper filled"
+    setting = found.balance.equilibrium.setting
+    asked = found.balance.equilibrium.conditions["grip, drive, hopper filled"]
+    assert found.balance.equilibrium.governing == "grip, drive, hopper filled"
     assert setting == pytest.approx(asked, rel=1e-12)
     slack = found.hopper_states[1].motion.drives[0].slack
     load = 850.0 * si(feeder.calculation.gravity) * 4.0 * 0.6**2
@@ -342,7 +342,7 @@ def test_skirts_under_the_hopper(feeder):
     assert "hopper_skirts" not in forces(one)
 
     def added(result):
-        design = result.motions.design_start.breakaway - result.balance.settled.design_force
+        design = result.motions.design_start.breakaway - result.balance.equilibrium.design_force
         return design / result.line.design_friction
 
     assert added(other) - added(one) == pytest.approx(unit * 2.0 * 1.5 * load, rel=1e-9)

@@ -40,7 +40,7 @@ def result(line):
 @pytest.mark.parametrize("name", ["overland", "in_plant_us", "downhill"])
 def test_the_loop_closes_and_power_is_force_times_speed(name):
     found = calculate(load(SPECS / f"{name}.yaml"))
-    forces, points = found.balance.forces, found.balance.points
+    forces, points = found.balance.forces, found.balance.tension_points
     assert points[-1].tension - points[0].tension == pytest.approx(forces.total, rel=1e-9)
     assert math.fsum(force.total for force in found.balance.every) == pytest.approx(forces.total, rel=1e-12)
     speed = si(found.conveyor.belt.speed)
@@ -53,7 +53,7 @@ def test_the_loop_closes_and_power_is_force_times_speed(name):
 def test_the_sag_asks_for_tension_between_the_sets_and_not_at_pulleys(name):
     """m' g a / (8 h), with the bulk on the carry side: 12.5 m' g a where the belt sags by 1 % of the span."""
     found = calculate(load(SPECS / f"{name}.yaml"))
-    conveyor, points = found.conveyor, found.balance.points
+    conveyor, points = found.conveyor, found.balance.tension_points
     pulleys = [point for point in points if point.place.endswith(("arriving", "leaving"))]
     assert len(pulleys) >= 2
     assert {point.least_for_sag for point in pulleys} == {0.0}
@@ -257,7 +257,7 @@ def contact(**changes) -> RollContact:
         "spacing": 1.2,
         "cover_thickness": 6e-3,
         "speed": 5.0,
-        "rubber": rubber,
+        "series": rubber,
     } | changes
     return RollContact(**given)
 
@@ -280,13 +280,13 @@ def test_similarity():
 
 def test_slower_rubber_is_a_faster_belt():
     faster = indentation_resistance(contact(speed=50.0), 2000.0, 1e-9).resistance
-    rubber = contact().rubber.scaled(a_T=10.0)
-    slower = indentation_resistance(contact(rubber=rubber), 2000.0, 1e-9).resistance
+    rubber = contact().series.scaled(a_T=10.0)
+    slower = indentation_resistance(contact(series=rubber), 2000.0, 1e-9).resistance
     assert float(slower) == pytest.approx(float(faster), rel=2e-9)
 
 
 def test_elastic_rubber_costs_nothing():
-    found = indentation_resistance(contact(rubber=PronySeries(8e6, [], [])), 2000.0)
+    found = indentation_resistance(contact(series=PronySeries(8e6, [], [])), 2000.0)
     assert float(found.resistance) == 0.0
     assert float(found.penetration) > 0.0
 
@@ -306,14 +306,14 @@ def test_published_friction_of_s100():
     fit = fit_prony(data.frequency, data.storage, data.loss, terms_per_decade=1.0)
     rubber = shift_series(fit.series, compound("s100").shift_law(), 293.15)
     for pressed, friction in ((1500.0, 0.003692), (4000.0, 0.004932)):
-        found = indentation_resistance(contact(rubber=rubber), pressed)
+        found = indentation_resistance(contact(series=rubber), pressed)
         assert float(found.resistance) / pressed == pytest.approx(friction, rel=6e-4)
 
 
 def test_load_exponent_of_s100():
     """Measured on large samples of a low-resistance cover, another rubber: 1.28 (7 mm cover, 219 mm roll, 20 degC)."""
     rubber = compound("s100").series(293.15)
-    roll = contact(radius=0.1095, cover_thickness=7e-3, rubber=rubber)
+    roll = contact(radius=0.1095, cover_thickness=7e-3, series=rubber)
     w = np.array([1e3, 2e3, 4e3, 8e3])
     resistance = indentation_curve(roll, 1e3, 8e3).at(w).resistance
     exponents = np.diff(np.log(resistance)) / math.log(2.0)

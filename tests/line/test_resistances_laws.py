@@ -61,7 +61,7 @@ def by_hand(stretch, tension):
 
 def by_sag(found):
     """Flexure of every stretch [N]: c of one site, 11 % of 61.7 N a set under 4302 N at 0.4 % sag; Simpson over T."""
-    c, count, steady = 0.11 * 61.7 / (4302.0 * 0.004), found.line.count, found.balance.settled.steady
+    c, count, steady = 0.11 * 61.7 / (4302.0 * 0.004), found.line.count, found.balance.equilibrium.steady
     starts, ends = np.roll(steady.starts, count), np.roll(steady.ends, count)
     places, weights = np.linspace(0.0, 1.0, 2001), np.ones(2001)
     weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
@@ -79,7 +79,7 @@ def test_load_and_sag_are_the_default(result):
     assert any("load x sag x 0.394 (0.158 to 0.789) assumed" in w for w in told(result))
     assert any("(carry 1 %, return 2 %)" in a for a in analysis_assumptions(result.conveyor))
     whole = math.fsum(force.total for force in result.balance.every)
-    assert result.balance.settled.force == pytest.approx(whole, rel=1e-12)
+    assert result.balance.equilibrium.force == pytest.approx(whole, rel=1e-12)
 
 
 def test_wider_spacing_flexes_more_and_a_tighter_belt_less(line, result):
@@ -87,9 +87,9 @@ def test_wider_spacing_flexes_more_and_a_tighter_belt_less(line, result):
     wide = calculate(line.replace(idlers=line.idlers.replace(carry=carry.replace(spacing="4 m"))))
     assert along(wide, "flexure") == pytest.approx(by_sag(wide), rel=1e-9)
     assert wide.balance.forces.parts["flexure"] > 1.5 * result.balance.forces.parts["flexure"]
-    taut = result.balance.held(3.0 * result.balance.settled.setting)
+    taut = result.balance.held(3.0 * result.balance.equilibrium.setting)
     assert taut.forces.parts["flexure"] < 0.6 * result.balance.forces.parts["flexure"]
-    again = taut.held(result.balance.settled.setting)
+    again = taut.held(result.balance.equilibrium.setting)
     assert again.forces.total == pytest.approx(result.balance.forces.total, rel=1e-12)
 
 
@@ -105,10 +105,10 @@ def test_the_length_coefficient_follows_the_flexure():
     made = calculate(line.replace(calculation=line.calculation.replace(secondary="C")))
     main, by_length = made.balance.forces.main, made.balance.forces.secondary
     assert by_length == pytest.approx(secondary_resistance(main, length=made.line.length), rel=1e-12)
-    assert made.balance.settled.force == pytest.approx(made.balance.forces.total, rel=1e-12)
-    again = made.balance.held(2.0 * made.balance.settled.setting)
+    assert made.balance.equilibrium.force == pytest.approx(made.balance.forces.total, rel=1e-12)
+    again = made.balance.held(2.0 * made.balance.equilibrium.setting)
     assert again.forces.secondary < by_length
-    assert again.settled.force == pytest.approx(again.forces.total, rel=1e-12)
+    assert again.equilibrium.force == pytest.approx(again.forces.total, rel=1e-12)
 
 
 def test_the_default_follows_neither_rubber_nor_drag(result):
@@ -236,7 +236,7 @@ def test_ploughs_are_special_resistances_at_their_place(line, result):
     }
     added = found.balance.forces.special - result.balance.forces.special
     assert added == pytest.approx(4600.0, rel=1e-9)
-    points = found.balance.points
+    points = found.balance.tension_points
     assert points[-1].tension - points[0].tension == pytest.approx(found.balance.forces.total, rel=1e-9)
     assert any("route.ploughs: scraping factor 1500 N/m assumed" in w for w in told(found))
     empty = calculate(made.replace(material=made.material.replace(flow="0 t/h")))
@@ -299,7 +299,7 @@ def test_cema_by_hand_in_its_own_units(line):
     # 5 lbf/in: its own, whatever this calculation has
     own = 6.0 * ((5.0**2 - 1.5**2) / 9.81 + 6.0) / FT + 5.0 * 2.0 * 1.1 / (FT / 12.0)
     assert found.cema.special / LBF == pytest.approx(own, rel=1e-12)
-    assert found.frame.motor(found.cema.total) == pytest.approx(found.cema.total * 5.0 / 0.94, rel=1e-12)
+    assert found.layout.motor(found.cema.total) == pytest.approx(found.cema.total * 5.0 / 0.94, rel=1e-12)
     assert found.cema.friction_factor == pytest.approx(found.cema.main / found.unit_main, rel=1e-12)
     whole = calculate(line).balance
     assert found.unit_main == pytest.approx(whole.forces.main / whole.friction_factor, rel=1e-12)

@@ -198,7 +198,7 @@ def test_variants_side_by_side_have_each_its_own_units() -> None:
 def test_a_belt_read_between_tensions() -> None:
     """More tensions than any belt here needs: judged as the last."""
     contact = RollContact(
-        radius=0.08, spacing=1.2, cover_thickness=5e-3, speed=4.0, rubber=PronySeries(8e6, [4e6], [1e-3])
+        radius=0.08, spacing=1.2, cover_thickness=5e-3, speed=4.0, series=PronySeries(8e6, [4e6], [1e-3])
     )
 
     class Curve:

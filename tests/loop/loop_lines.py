@@ -120,7 +120,7 @@ def told(conveyor: Conveyor, found: Balance) -> list[str]:
         temperature=conveyor.temperature,
         contacts=Contacts(found.line, {}, (), ()),
         balance=found,
-        fixed=rubber_free_forces(found.line.strands),
+        rubber_free=rubber_free_forces(found.line.strands),
     )
     checked = run_checks(given, contacts=False)
     return [check.why.text() for check in checked if check.verdict != "pass" and check.why is not None]

@@ -66,7 +66,7 @@ def test_the_error_is_the_belts_pull_out_of_line_over_the_bulk_weighed(spec):
     result, found = _checked(spec)
     line = result.line
     stretch = line.stretches[1]
-    steady = result.balance.settled.steady
+    steady = result.balance.equilibrium.steady
     at = line.loop.stretches.index(stretch)
     share = 104.0 / 700.0  # the last of two weigh sets, 4 ft behind the first
     tension = steady.starts[at] + share * (steady.ends[at] - steady.starts[at])

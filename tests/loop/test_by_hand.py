@@ -26,7 +26,7 @@ def test_the_classical_estimate_is_that_of_din_22101():
     assert found.special == pytest.approx(one.forces.special, rel=1e-12)
     total = 1.09 * main + one.forces.special + BULK * GRAVITY * 23.0
     assert found.total == pytest.approx(total, rel=1e-12)
-    assert one.frame.motor(found.total) == pytest.approx(total * 4.0 / 0.94, rel=1e-12)
+    assert one.layout.motor(found.total) == pytest.approx(total * 4.0 / 0.94, rel=1e-12)
 
 
 def test_beyond_the_table_of_c_the_secondary_resistances_are_itemised():
@@ -55,7 +55,7 @@ def test_bearings_of_a_pulley_at_its_tensions():
     found = balanced()
     (turn,) = [single for single in found.singles if single.name == "bearings, tail"]
     # 0.005 (d0/D) sqrt((T1 + T2)² + (m g)²): a shaft of 160 in 800 mm, 1 t; both strands have the tail's tension
-    return_end = found.settled.steady.ends[len(SECTIONS) - 1]
+    return_end = found.equilibrium.steady.ends[len(SECTIONS) - 1]
     load = math.hypot(2.0 * return_end, 1000.0 * GRAVITY)
     assert turn.newtons == pytest.approx(0.005 * 0.2 * load, rel=1e-9)
     names = {single.name for single in found.singles if single.name.startswith("bearings")}
@@ -64,7 +64,7 @@ def test_bearings_of_a_pulley_at_its_tensions():
 
 def test_a_booster_takes_its_force_out_behind_its_section():
     found = balanced(drive={"further_drives": [BOOSTER]})
-    steady = found.settled.steady
+    steady = found.equilibrium.steady
     (side,) = [drive for drive in steady.drives if drive.name == "booster"]
     # return d, c, b, a, carry a, b, c, d: the booster stands behind b, between the sixth stretch and the seventh
     steps = steady.starts[5:8] - steady.ends[4:7]

@@ -40,7 +40,7 @@ def hill():
 
 def test_the_rolls_of_a_hill_bear_what_the_tension_turns(hill):
     """Sum of the added forces over the sets is T' times the angle turned; sin x for x leaves (a/2r)²/6 = 4e-7."""
-    steady = hill.balance.settled.steady
+    steady = hill.balance.equilibrium.steady
     pressing = pressing_masses(hill.line, steady)
     assert set(pressing) == {("top", "carry"), ("top", "return")}
     for i, stretch in enumerate(hill.line.loop.stretches):
@@ -67,7 +67,7 @@ def test_tension_and_loads_agree_within_the_bound(hill):
     finer = calculate(fine)
     # the contacts' own tolerance comes on top of the bound, and with the friction to design for once more
     assert hill.balance.tensions.largest == pytest.approx(finer.balance.tensions.largest, rel=found.bound + 2e-6)
-    again = Strands.of(fine, CurveLoads(pressing_masses(finer.line, finer.balance.settled.steady)))
+    again = Strands.of(fine, CurveLoads(pressing_masses(finer.line, finer.balance.equilibrium.steady)))
     assert _borne(again) == pytest.approx(_borne(finer.line), rel=1e-6)
 
 
@@ -201,13 +201,13 @@ def test_strength_is_needed_per_width():
 
 def test_the_first_step_on_curves_is_never_the_last(hill):
     """Of one step the ratio of changes is not known."""
-    steady = hill.balance.settled.steady
+    steady = hill.balance.equilibrium.steady
     first = next_convergence(None, steady, steady, hill.line, steady.largest)
     assert (first.steps, first.change) == (1, 0.0)
-    assert not first.settled(hill.line.rtol)
+    assert not first.has_converged(hill.line.rtol)
     second = next_convergence(replace(first, change=1e-3), steady, steady, hill.line, steady.largest)
     assert (second.steps, second.ratio) == (2, 0.0)
-    assert second.settled(hill.line.rtol)
+    assert second.has_converged(hill.line.rtol)
 
 
 def test_safety_and_diameters():
@@ -217,7 +217,7 @@ def test_safety_and_diameters():
     made = from_data(changes)
     found = closed(made)
     duty = belt_duty(found)
-    steady = max(point.tension for point in found.points)
+    steady = max(point.tension for point in found.tension_points)
     assert duty.largest_steady == pytest.approx(steady, rel=1e-14)
     assert duty.safety_steady == pytest.approx(630e3 / steady, rel=1e-14)
     assert duty.strength_needed["steady"] == pytest.approx(steady * 1.1 * 1.9 / 0.45, rel=1e-14)
@@ -242,9 +242,9 @@ def test_examples_hold(name):
     said = [w.text() for w in analysis_warnings(done, run_checks(done))]
     assert not [w for w in said if "lifts off" in w or "does not stop" in w or "asks for" in w]
     found = done.balance
-    settled, sides = found.settled, found.settled.steady.drives
+    settled, sides = found.equilibrium, found.equilibrium.steady.drives
     assert math.fsum(side.force for side in sides) == pytest.approx(found.forces.total, rel=1e-12)
-    motors = math.fsum(found.frame.motor(side.force) for side in sides)
+    motors = math.fsum(found.layout.motor(side.force) for side in sides)
     assert motors == pytest.approx(found.power.motor, rel=1e-12)
     for state in settled.states.values():
         for drive, side in zip(done.line.drives, state.drives, strict=True):

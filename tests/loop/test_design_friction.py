@@ -35,9 +35,9 @@ def rubbed_more(balance, factor):
         at_sag_limit = None if force.at_sag_limit is None else force.at_sag_limit * factor
         return force if force.certain else replace(force, newtons=force.newtons * factor, at_sag_limit=at_sag_limit)
 
-    frame = balance.frame.scaled(more).designed_for(1.0)
+    layout = balance.layout.scaled(more).designed_for(1.0)
     along = tuple(map(more, balance.along))
-    (made,) = close_loops([OpenLoop.of(frame, along, balance.unit_main, balance.settled.take_up)])
+    (made,) = close_loops([OpenLoop.of(layout, along, balance.unit_main, balance.equilibrium.take_up)])
     return made
 
 
@@ -45,21 +45,21 @@ def rubbed_more(balance, factor):
 def test_tensions_are_those_of_a_belt_with_more_friction(stem):
     """Wraps and flexure follow the tension instead of the friction: 2 % of what it adds, as for the band."""
     balance = designed(stem, 1.3).balance
-    rubbed, states = rubbed_more(balance, 1.3), balance.settled.states
-    added = rubbed.settled.force - balance.settled.force
+    rubbed, states = rubbed_more(balance, 1.3), balance.equilibrium.states
+    added = rubbed.equilibrium.force - balance.equilibrium.force
     assert added > 0.0
-    assert balance.settled.design_force - balance.settled.force == pytest.approx(added, rel=0.02)
-    steady = rubbed.settled.steady
+    assert balance.equilibrium.design_force - balance.equilibrium.force == pytest.approx(added, rel=0.02)
+    steady = rubbed.equilibrium.steady
     for mine, other in ((states[DESIGN].starts, steady.starts), (states[DESIGN].ends, steady.ends)):
         assert np.allclose(mine, other, rtol=0.0, atol=0.02 * added)
-    if rubbed.settled.force > 0.0:
-        start = rubbed.settled.unsteady
+    if rubbed.equilibrium.force > 0.0:
+        start = rubbed.equilibrium.unsteady
         assert states[DESIGN_START].force == pytest.approx(start.force, abs=0.03 * added)
         assert states[DESIGN_START].largest == pytest.approx(start.largest, abs=0.03 * added)
 
 
 def test_the_take_up_serves_the_expected_and_the_design_friction():
-    plain, more = designed("overland", 1.0).balance.settled, designed("overland", 1.4).balance.settled
+    plain, more = designed("overland", 1.0).balance.equilibrium, designed("overland", 1.4).balance.equilibrium
     assert set(more.states) - set(plain.states) == {DESIGN, DESIGN_START}
     assert more.needed > plain.needed
     assert more.needed == pytest.approx(max(more.conditions.values()), rel=ROUNDING)
@@ -80,14 +80,14 @@ def test_without_a_given_one_it_is_the_upper_end_of_the_band():
     assert check.where == DESIGN
     (expected,) = calculate_many([Variant(result.conveyor, design_friction=1.0)])
     assert expected.line.design_friction == 1.0
-    assert DESIGN not in expected.balance.settled.states
+    assert DESIGN not in expected.balance.equilibrium.states
 
 
 def test_a_belt_that_drives_its_motors_is_held_with_the_least_friction():
     result = designed("downhill_brakes", 1.3)
     powers = [check for check in run_checks(result) if check.key == "motor_power"]
     assert {check.where for check in powers} == {LEAST}
-    held = abs(result.balance.frame.motor(result.balance.settled.least_force))
+    held = abs(result.balance.layout.motor(result.balance.equilibrium.least_force))
     assert sum(check.calculated for check in powers) == pytest.approx(held, rel=ROUNDING)
 
 
@@ -95,7 +95,7 @@ def test_belt_safety_is_that_of_the_highest_steady_tension():
     plain, more = designed("overland", 1.0), designed("overland", 1.3)
     width, strength = 1.2, 2.5e6
     assert more.belt_duty.safety_steady == pytest.approx(
-        strength * width / more.balance.settled.states[DESIGN].largest, rel=ROUNDING
+        strength * width / more.balance.equilibrium.states[DESIGN].largest, rel=ROUNDING
     )
     assert more.belt_duty.safety_steady < plain.belt_duty.safety_steady
 
@@ -121,15 +121,17 @@ def test_a_superposed_loading_has_it_too():
 
     friction = full.line.design_friction
     (empty,) = calculate_many(
-        [Variant(with_case(full.conveyor, case), take_up=full.balance.settled.take_up, design_friction=friction)]
+        [Variant(with_case(full.conveyor, case), take_up=full.balance.equilibrium.take_up, design_friction=friction)]
     )
     loadings = SectionLoadings(full.balance, empty.balance)
     (whole,) = loadings.loaded([np.ones(full.line.count, bool)])
-    assert whole.settled.states[DESIGN].largest == pytest.approx(full.balance.settled.states[DESIGN].largest, rel=1e-6)
+    assert whole.equilibrium.states[DESIGN].largest == pytest.approx(
+        full.balance.equilibrium.states[DESIGN].largest, rel=1e-6
+    )
     worst = loadings.worst()["drive force"]
     (found,) = loadings.loaded([worst])
     others = loadings.loaded([np.arange(full.line.count) != k for k in range(full.line.count)])
-    assert found.settled.design_force >= max(one.settled.design_force for one in others) - 1e-6
+    assert found.equilibrium.design_force >= max(one.equilibrium.design_force for one in others) - 1e-6
 
 
 @pytest.mark.parametrize("value", ["90 %", "0", "600 %"])

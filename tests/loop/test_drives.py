@@ -18,13 +18,13 @@ RATED = 400e3 * 0.94 / 4.0
 
 
 def started(found):
-    return found.settled.states["start"]
+    return found.equilibrium.states["start"]
 
 
 def test_an_uncontrolled_start_brings_all_torque_to_the_belt_but_what_the_drive_keeps():
     """1.8 × 94 kN less 10 t times the acceleration that it makes of belt and drive together."""
     found = balanced(drive={"torque_factor": 1.8, "reduced_mass": "10 t"})
-    mass, steady = found.line.loop.mass.sum(), found.settled.force
+    mass, steady = found.line.loop.mass.sum(), found.equilibrium.force
     acceleration = (1.8 * RATED - steady) / (mass + 10e3)
     start = start_and_stop(found).start
     assert start.acceleration == pytest.approx(acceleration, rel=ROUNDING)
@@ -40,7 +40,7 @@ def test_a_controlled_start_is_limited_by_the_motors():
     drive = {"start_factor": 3.0, "torque_factor": 1.2, "reduced_mass": "10 t"}
     conveyor = line(drive=drive)
     found = closed(conveyor)
-    mass, steady = found.line.loop.mass.sum(), found.settled.force
+    mass, steady = found.line.loop.mass.sum(), found.equilibrium.force
     factor = (1.2 * RATED / steady + 10e3 / mass) / (1.0 + 10e3 / mass)
     assert 1.0 < factor < 3.0
     start = start_and_stop(found).start
@@ -49,7 +49,7 @@ def test_a_controlled_start_is_limited_by_the_motors():
     assert start.asked == pytest.approx(3.0 * steady + 10e3 * 2.0 * steady / mass, rel=ROUNDING)
     assert any("it is limited to" in why for why in told(conveyor, found))
     free = balanced(drive={"start_factor": 3.0, "reduced_mass": "10 t"})
-    assert started(free).force == pytest.approx(3.0 * free.settled.force, rel=ROUNDING)
+    assert started(free).force == pytest.approx(3.0 * free.equilibrium.force, rel=ROUNDING)
     assert start_and_stop(free).start.least is None  # what its motors give over speed is not known
 
 
@@ -80,7 +80,7 @@ def test_a_torque_curve_starts_with_its_peak_in_the_tensions_and_its_run_up_in_t
     """The time by a Riemann sum of m dv/F over the curve drawn by hand; its error is below the width of a step."""
     conveyor = line(drive={"torque_curve": CURVE, "reduced_mass": "10 t"})
     found = closed(conveyor)
-    mass, steady = found.line.loop.mass.sum() + 10e3, found.settled.force
+    mass, steady = found.line.loop.mass.sum() + 10e3, found.equilibrium.force
     start = start_and_stop(found).start
     assert start.available == pytest.approx(2.4 * RATED, rel=ROUNDING)
     assert start.least == pytest.approx(1.3 * RATED, rel=ROUNDING)
@@ -148,7 +148,7 @@ def test_without_power_a_downhill_belt_runs_away_and_its_brakes_stop_it_after_th
     conveyor = downhill(brake_force="400 kN", brake_delay="2 s")
     found = closed(conveyor)
     moving, mass = start_and_stop(found), found.line.loop.mass.sum() + 5e3
-    least = found.settled.least_force
+    least = found.equilibrium.least_force
     assert least < 0.0
     assert moving.coasting_least is None
     assert moving.runaway == pytest.approx(-least / mass, rel=ROUNDING)
@@ -203,7 +203,7 @@ def test_a_tripper_lifts_its_bulk_before_the_booster_and_speeds_it_up_behind():
 def test_the_tension_round_a_tripper_closes_by_hand():
     """Arriving at the booster: the end of section b and the bulk's lift; leaving: less its force; then acceleration."""
     found = balanced(route={"further_feeding": [TRIPPER], "pulleys": []}, drive={"further_drives": [BOOSTER]})
-    state = found.settled.states[STEADY]
+    state = found.equilibrium.states[STEADY]
     singles = {force.name: force.total for force in found.singles}
     names = [(s.section, s.strand) for s in found.line.loop.stretches]
     end, start = state.ends[names.index(("b", "carry"))], state.starts[names.index(("c", "carry"))]

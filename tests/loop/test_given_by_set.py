@@ -75,7 +75,7 @@ def test_a_rated_belt_is_judged_by_the_tension_it_works_at():
     found = closed(conveyor)
     duty = belt_duty(found)
     assert duty.rating == pytest.approx(600 * 4.4482216152605 / 0.0254, rel=ROUNDING)
-    assert duty.per_width_steady == pytest.approx(found.settled.steady.largest / 1.0, rel=ROUNDING)
+    assert duty.per_width_steady == pytest.approx(found.equilibrium.steady.largest / 1.0, rel=ROUNDING)
     assert (duty.safety, duty.strength_needed) == (None, {})
     assert not any("rated for" in why for why in told(conveyor, found))
 

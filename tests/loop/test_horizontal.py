@@ -86,7 +86,7 @@ def test_left_and_right_are_mirrors(found):
 
 def test_the_drift_holds_the_pull_of_the_mean_tension(found):
     """Moved weights push out by 2 (T - m' v²) sin(a/2R), and the rolls bear weight and the pull's normal part."""
-    steady = found.balance.settled.steady
+    steady = found.balance.equilibrium.steady
     for i, stretch in enumerate(found.line.loop.stretches):
         turn = stretch.turn
         if turn is None:
@@ -246,7 +246,7 @@ def test_edges_bear_the_bend_as_plane_sections_say(found):
 
 def test_a_hill_in_the_curve_presses_the_belt_into_its_trough(found):
     hill = calculate(conveyor({"curve": "convex", "curve_radius": "1500 m"}))
-    steady = hill.balance.settled.steady
+    steady = hill.balance.equilibrium.steady
     both = CurveLoads(pressing_masses(hill.line, steady), belt_drifts(hill.line, steady))
     assert set(both.pressing) == set(both.drift) == {("bend", "carry"), ("bend", "return")}
     flat, high = found.horizontal[0], hill.horizontal[0]
@@ -371,7 +371,7 @@ def test_a_garland_of_five_holds_its_belt_in_a_curve(found):
     five = calculate(garland())
     bend = five.horizontal[0]
     (stretch,) = (s for s in five.line.stretches if (s.section, s.strand) == ("bend", "carry"))
-    steady = five.balance.settled.steady
+    steady = five.balance.equilibrium.steady
     i = list(five.line.loop.stretches).index(stretch)
     pull = 0.5 * (steady.starts[i] + steady.ends[i]) - stretch.line_mass * 4.0**2
     held = bend.turn.law(0.0, least=False).force(bend.turn.drift)

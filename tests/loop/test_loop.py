@@ -74,7 +74,7 @@ def test_the_loop_closes_in_every_state(case):
     moving, results = start_and_stop(found), along(found)
     n = len(results) // 2
     order = (*results[n:], *results[:n])
-    for state in (*found.settled.states.values(), *moving.states.values()):
+    for state in (*found.equilibrium.states.values(), *moving.states.values()):
         level = state.leaving
         for i, result in enumerate(order):
             roll_mass = 12.0 / 1.2 if result.stretch.strand == "carry" else 9.0 / 3.0
@@ -92,10 +92,10 @@ def test_the_loop_closes_in_every_state(case):
 
 def test_the_points_follow_the_belt_round_the_loop(case):
     _, found = case
-    steady, last = found.settled.steady, found.frame.boundaries[-1]
-    tensions = {point.place: point.tension for point in found.points}
-    assert len(tensions) == len(found.points)
-    assert (np.diff([point.distance for point in found.points]) >= 0.0).all()
+    steady, last = found.equilibrium.steady, found.layout.boundaries[-1]
+    tensions = {point.place: point.tension for point in found.tension_points}
+    assert len(tensions) == len(found.tension_points)
+    assert (np.diff([point.distance for point in found.tension_points]) >= 0.0).all()
     for stretch, start, end in zip(found.line.loop.stretches, steady.starts, steady.ends, strict=True):
         name = f"{stretch.section}, {stretch.strand}"
         assert (tensions[f"{name}, start"], tensions[f"{name}, end"]) == (start, end)
@@ -107,7 +107,7 @@ def test_the_points_follow_the_belt_round_the_loop(case):
             taken = tensions[f"{drive.name}, arriving"] - tensions[f"{drive.name}, leaving"]
             assert taken == pytest.approx(side.force, abs=CLOSED * steady.largest)
     # nothing stands between the end of the carry strand and a head pulley that is not driven
-    assert (found.points[-1].place, found.points[-1].tension) == (
+    assert (found.tension_points[-1].place, found.tension_points[-1].tension) == (
         ("drive, arriving", pytest.approx(at_head[0], rel=CLOSED))
         if at_head
         else ("head, arriving", pytest.approx(steady.ends[-1], rel=CLOSED))
@@ -116,7 +116,7 @@ def test_the_points_follow_the_belt_round_the_loop(case):
 
 def test_drives_give_what_the_conveyor_takes(case):
     conveyor, found = case
-    sides = found.settled.steady.drives
+    sides = found.equilibrium.steady.drives
     taken = math.fsum(r.total for r in along(found)) + math.fsum(s.total for s in found.singles)
     assert found.forces.total == pytest.approx(taken, rel=1e-12)
     assert sum(side.force for side in sides) == pytest.approx(found.forces.total, rel=1e-12)
@@ -127,7 +127,7 @@ def test_drives_give_what_the_conveyor_takes(case):
 
 def test_every_drive_grips_no_stretch_sags_and_nothing_is_given_away(case):
     _, found = case
-    settled = found.settled
+    settled = found.equilibrium
     for state in settled.states.values():
         for drive, side in zip(found.line.drives, state.drives, strict=True):
             assert side.tight / side.slack <= math.exp(drive.friction * drive.wrap_angle) * (1.0 + 1e-12)
@@ -143,7 +143,7 @@ def test_every_drive_grips_no_stretch_sags_and_nothing_is_given_away(case):
 
 def test_the_take_up_holds_what_it_holds(case):
     conveyor, found = case
-    settled = found.settled
+    settled = found.equilibrium
     take_up = conveyor.route.take_up
     length = found.line.loop.length
     for state in (*settled.states.values(), *start_and_stop(found).states.values()):
@@ -174,7 +174,7 @@ def test_one_drive_is_the_law():
     )
     assert (found.tensions.slack, found.tensions.tight_start) == pytest.approx((law.slack, law.tight), rel=1e-12)
     assert found.tensions.governed_by == "grip"
-    assert found.settled.governing == "grip, drive, start"
+    assert found.equilibrium.governing == "grip, drive, start"
 
 
 def test_two_drives_at_the_head_are_the_law_of_the_row():
@@ -183,18 +183,18 @@ def test_two_drives_at_the_head_are_the_law_of_the_row():
     force = 1.3 * 0.5 * found.forces.total
     first, second = (force / math.expm1(grip) for grip in (0.35 * math.radians(200.0), 0.3 * math.pi))
     assert second > first - force
-    assert found.settled.governing == "grip, second, start"
+    assert found.equilibrium.governing == "grip, second, start"
     # without a take-up the first drive's slack side, the second's tight one, is held
-    start = found.settled.states["start"]
+    start = found.equilibrium.states["start"]
     assert start.drives[1].leaving == pytest.approx(second, rel=1e-12)
 
 
 def test_force_is_shared_by_power_or_as_told():
     by_power = balanced(drive={"further_drives": [BOOSTER, TAIL_DRIVE]})
-    forces = [side.force for side in by_power.settled.steady.drives]
+    forces = [side.force for side in by_power.equilibrium.steady.drives]
     assert forces == pytest.approx([by_power.forces.total * s for s in (4 / 7, 2 / 7, 1 / 7)], rel=1e-12)
     told = balanced(drive={"share": 0.25, "further_drives": [BOOSTER | {"share": "75 %"}]})
-    assert told.settled.steady.drives[0].force == pytest.approx(0.25 * told.forces.total, rel=1e-12)
+    assert told.equilibrium.steady.drives[0].force == pytest.approx(0.25 * told.forces.total, rel=1e-12)
 
 
 def test_a_booster_takes_tension_out_of_the_belt():
@@ -217,9 +217,9 @@ def test_splitting_a_section_renaming_and_units_change_nothing(name):
     split = conveyor.replace(route=route, belt=belt, material=conveyor.material.replace(flow="1200000 kg/h"))
     after = closed(split)
     assert after.forces.total == pytest.approx(before.forces.total, rel=1e-12)
-    assert after.settled.setting == pytest.approx(before.settled.setting, rel=1e-11)
+    assert after.equilibrium.setting == pytest.approx(before.equilibrium.setting, rel=1e-11)
     assert after.tensions.largest == pytest.approx(before.tensions.largest, rel=1e-11)
-    for state, same in zip(after.settled.states.values(), before.settled.states.values(), strict=True):
+    for state, same in zip(after.equilibrium.states.values(), before.equilibrium.states.values(), strict=True):
         assert state.acceleration == pytest.approx(same.acceleration, rel=1e-10, abs=1e-15)
         assert state.smallest == pytest.approx(same.smallest, rel=1e-11)
 
@@ -253,25 +253,25 @@ def test_least_friction_is_on_the_safe_side():
     lift = math.fsum(r.lift for r in along(found))
     certain = next(s.total for s in found.singles if "acceleration" in s.name)
     expected = lift + certain + 0.6 * (found.forces.total - lift - certain)
-    assert found.settled.least_force == pytest.approx(expected, rel=1e-12)
-    assert found.settled.least_force < found.forces.total < 0.0
+    assert found.equilibrium.least_force == pytest.approx(expected, rel=1e-12)
+    assert found.equilibrium.least_force < found.forces.total < 0.0
     full = balanced(**CASES["downhill"] | {"drive": {"least_friction": 1.0}})
     assert full.tensions.slack < found.tensions.slack
-    assert set(full.settled.states) == {"steady", "braking"}
+    assert set(full.equilibrium.states) == {"steady", "braking"}
 
 
 def test_a_given_take_up_is_held_and_judged():
-    needed = balanced(route={"take_up": {"kind": "gravity", "position": "head"}}).settled.needed
+    needed = balanced(route={"take_up": {"kind": "gravity", "position": "head"}}).equilibrium.needed
     for factor, short in ((1.05, False), (0.9, True)):
         conveyor = line(route={"take_up": {"kind": "gravity", "position": "head", "tension": f"{factor * needed} N"}})
         found = closed(conveyor)
-        assert found.settled.steady.starts[0] == pytest.approx(factor * needed, rel=1e-12)
+        assert found.equilibrium.steady.starts[0] == pytest.approx(factor * needed, rel=1e-12)
         held = [w for w in told(conveyor, found) if w.startswith("the take-up holds")]
         assert bool(held) == short
         if short:
             assert any("grip, drive, start" in w and "requires" in w for w in held)
     mass = line(route={"take_up": {"kind": "gravity", "position": "head", "mass": "10 t", "reeving": 2.0}})
-    assert closed(mass).settled.setting == pytest.approx(10e3 * 9.81, rel=1e-15)
+    assert closed(mass).equilibrium.setting == pytest.approx(10e3 * 9.81, rel=1e-15)
 
 
 def slack_line(tension, **changes):
@@ -285,11 +285,11 @@ def test_a_slack_belt_is_calculated_and_fails_with_what_would_cure_it():
     assert lowest < 0.0
     (words,) = {w for w in told(slack_line(100.0), found) if w.startswith("the belt goes slack") and '"start"' in w}
     cured = float(re.search(r"from 100 N to about ([\d.]+) kN", words).group(1)) * 1e3
-    start = found.settled.states["start"].smallest
+    start = found.equilibrium.states["start"].smallest
     assert cured == pytest.approx(100.0 - start, rel=5e-3)  # three digits
     # there nothing is slack but by what the tension adds to the resistance of the pulleys, which a start raises by 1.3
-    added = 1.3 * sum(bend.wrap[1] + 2.0 * (bend.bearings or 0.0) for bend in found.frame.bends)
-    again = closed(slack_line(cured), 0.03).settled.states["start"].smallest
+    added = 1.3 * sum(bend.wrap[1] + 2.0 * (bend.bearings or 0.0) for bend in found.layout.bends)
+    again = closed(slack_line(cured), 0.03).equilibrium.states["start"].smallest
     assert abs(again) < (added + 5e-3) * cured
 
 
@@ -298,7 +298,7 @@ def test_tensions_of_a_slack_belt_are_straight_lines():
     found = balanced(calculation={"secondary": "C"}, route={"take_up": {"kind": "winch", "position": "tail"}})
 
     def tensions(setting):
-        steady = found.held(setting).settled.steady
+        steady = found.held(setting).equilibrium.steady
         return np.append(steady.starts, steady.ends)
 
     taut, slack = tensions(200e3), tensions(100.0)
@@ -310,7 +310,7 @@ def test_a_slack_belt_loads_its_pulleys_as_one_without_tension():
     """At -1 MN the belt is slack everywhere: each pulley has the wrap of no tension and bears its own weight."""
     found = balanced().held(-1e6)
     assert found.tensions.largest < 0.0
-    for pulley, resistance in zip(found.line.pulleys, found.settled.bends, strict=True):
+    for pulley, resistance in zip(found.line.pulleys, found.equilibrium.bends, strict=True):
         # ISO 5048, steel cord: 12 B (200 + 0.01 F/B) d/D [N, m], F = 0; F_t = 0.005 d0/D G
         wrap = 12.0 * 1.0 * 200.0 * 0.015 / pulley.diameter
         turn = 0.0 if pulley.driven else 0.005 * pulley.shaft_diameter / pulley.diameter * pulley.mass * 9.81

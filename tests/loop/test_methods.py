@@ -79,7 +79,7 @@ def test_f_is_that_of_section_strand_and_load():
 def test_load_states_have_the_f_of_the_empty_belt():
     line = by("overland", "din 22101", secondary="itemised", empty_friction_factor=0.03)
     loads = every_load(line)
-    settled = loads.own.balance.settled
+    settled = loads.own.balance.equilibrium
     for key, loading in (("empty", "empty"), ("inclines", "inclines only")):
         case = with_case(line, conveyor.LoadCase(name=loading, loading=loading))
         (alone,) = calculate_many([Variant(case, take_up=settled.take_up)])
@@ -88,12 +88,12 @@ def test_load_states_have_the_f_of_the_empty_belt():
     empty, full = loads.states.state("empty").balance, loads.own.balance
     assert empty.friction_factor > 0.024 > full.friction_factor  # the return strand keeps f 0.02
     # the worst loading leaves sections empty only where they resist more so: of all 2^n none is worse
-    worst = loads.states.state("worst").balance.settled.force
+    worst = loads.states.state("worst").balance.equilibrium.force
     every = itertools.product([False, True], repeat=loads.own.line.count)
     for loaded in itertools.islice(every, 0, None, 97):
         sections = {f"_{i}": {"loaded": on} for i, on in enumerate(loaded)}
         (alone,) = calculate_many([Variant(with_sections(line, **sections), take_up=settled.take_up)])
-        assert alone.balance.settled.force <= worst * (1.0 + 1e-4)
+        assert alone.balance.equilibrium.force <= worst * (1.0 + 1e-4)
 
 
 def test_ky_is_that_of_the_section():
@@ -138,12 +138,12 @@ def test_tensions_take_up_and_motors_follow():
     """T1 - T2 is Te; the slack side is Eytelwein's at the start where grip governs; the motor gives Te v / η."""
     line = by("overland", "din 22101")
     result = calculate(line)
-    drive = result.balance.settled.steady.drives[0]
+    drive = result.balance.equilibrium.steady.drives[0]
     assert drive.tight - drive.slack == pytest.approx(result.balance.forces.total, rel=1e-9)
-    assert result.balance.settled.governed_by == "grip"
+    assert result.balance.equilibrium.governed_by == "grip"
     start = 1.3 * result.balance.forces.total
     slack = start / math.expm1(0.35 * math.radians(210.0))
-    assert result.balance.settled.states["start"].drives[0].slack == pytest.approx(slack, rel=1e-9)
+    assert result.balance.equilibrium.states["start"].drives[0].slack == pytest.approx(slack, rel=1e-9)
     (motor,) = (check for check in run_checks(result) if check.key == "motor_power")
     assert motor.calculated == pytest.approx(result.balance.forces.total * 5.0 / 0.94, rel=1e-9)
     assert result.line.design_friction == 1.0  # f has the allowance of its standard
@@ -233,7 +233,7 @@ def test_scenarios_follow_the_method(method):
     scene = {"name": "stop", "begins": "running", "events": [{"do": "power off"}], "duration": "3 s"}
     line = by("in_plant_us", method, cema=CEMA)
     made = simulate_scenarios(line, [Scenario.from_data(scene)], error=0.05)
-    steady = calculate(line).balance.settled.steady
+    steady = calculate(line).balance.equilibrium.steady
     (stopped,) = made.followed
     highest = max(stopped.record.tensions.max(), 0.0)
     assert highest == pytest.approx(steady.drives[0].arriving, rel=0.05)
@@ -254,14 +254,16 @@ def test_a_design_friction_is_taken_where_it_is_given():
     rubbing = plain.balance.forces.total - plain.balance.forces.lift
     certain = sum(force.total for force in plain.balance.every if force.certain and force.kind != "lift")
     expected = plain.balance.forces.total + 0.1 * (rubbing - certain)
-    assert high.balance.settled.design_force == pytest.approx(expected, rel=1e-3)  # of the wraps at the higher take-up
+    assert high.balance.equilibrium.design_force == pytest.approx(
+        expected, rel=1e-3
+    )  # of the wraps at the higher take-up
 
 
 @pytest.mark.parametrize(("method", "cema"), [("din 22101", None), ("cema classic", CEMA)])
 def test_load_states_are_those_of_the_method(method, cema):
     line = by("overland", method, cema=cema)
     loads = every_load(line)
-    settled = loads.own.balance.settled
+    settled = loads.own.balance.equilibrium
     parts = (("empty", "empty"), ("inclines", "inclines only"), ("declines", "declines only"))
     for key, loading in parts if cema is None else parts[:1]:  # CEMA's seals stand at every point that a case feeds
         case = with_case(line, conveyor.LoadCase(name=loading, loading=loading))
@@ -269,11 +271,11 @@ def test_load_states_are_those_of_the_method(method, cema):
         state = loads.states.state(key)
         assert state.balance.forces.total == pytest.approx(alone.balance.forces.total, rel=1e-9)
         assert state.balance.tensions.largest == pytest.approx(alone.balance.tensions.largest, rel=1e-9)
-    worst = loads.states.state("worst").balance.settled.force
+    worst = loads.states.state("worst").balance.equilibrium.force
     count = loads.own.line.count
     flags = np.array([[bool(k >> i & 1) for i in range(count)] for k in range(2**count)])
     rises = np.array([section.rise for section in loads.own.line.sections])
-    assert worst >= loads.own.balance.settled.force
+    assert worst >= loads.own.balance.equilibrium.force
     assert flags.shape == (1024, 10)
     assert set(np.array([s.name for s in loads.own.line.sections])[rises > 0.0]) <= set(
         loads.states.state("worst").loaded

@@ -40,13 +40,13 @@ def loads(kind, changes, **take_up):
 def test_one_setting_serves_every_state_of_every_load_and_is_the_least(name, kind):
     alone = loads(kind, LINES[name])
     found = at_common_setting(alone)
-    (setting,) = {one.settled.setting for one in found}
-    assert all(not one.settled.short for one in found)
+    (setting,) = {one.equilibrium.setting for one in found}
+    assert all(not one.equilibrium.short for one in found)
     # more tension bends the belt harder, so that it asks for no less than the load that asks for most alone
-    assert tension_suffices(setting, max(one.settled.needed for one in alone))
-    assert setting == pytest.approx(max(one.settled.needed for one in found), rel=1e-9)
+    assert tension_suffices(setting, max(one.equilibrium.needed for one in alone))
+    assert setting == pytest.approx(max(one.equilibrium.needed for one in found), rel=1e-9)
     lower = [one.held(setting * (1.0 - 1e-6)) for one in alone]
-    assert any(one.settled.short for one in lower)
+    assert any(one.equilibrium.short for one in lower)
 
 
 def test_the_load_that_asks_for_most_need_not_be_the_full_one():
@@ -54,8 +54,8 @@ def test_the_load_that_asks_for_most_need_not_be_the_full_one():
         closed(with_case(line(**LINES["downhill, tail drive"]), LoadCase(name=name, loading=name)))
         for name in ("empty", "full")
     )
-    assert empty.settled.needed > full.settled.needed > 0.0
-    assert full.held(empty.settled.needed).tensions.largest > full.tensions.largest
+    assert empty.equilibrium.needed > full.equilibrium.needed > 0.0
+    assert full.held(empty.equilibrium.needed).tensions.largest > full.tensions.largest
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -64,7 +64,7 @@ def test_what_the_take_up_keeps_is_the_same_under_every_load(kind):
     head, means = [], []
     for one in found:
         lengths = one.line.loop.length
-        for state in one.settled.states.values():
+        for state in one.equilibrium.states.values():
             head.append(state.held if kind in {"gravity", "winch"} else math.nan)
             means.append(float(0.5 * (state.starts + state.ends) @ lengths / lengths.sum()))
     if kind in {"gravity", "winch"}:
@@ -72,31 +72,32 @@ def test_what_the_take_up_keeps_is_the_same_under_every_load(kind):
         assert np.ptp(means) > 0.05 * max(means)
     else:
         # belt elongation, the integral of T/EA over the loop, is that of the mean
-        assert means == pytest.approx([found[0].settled.setting] * len(means), rel=1e-11)
+        assert means == pytest.approx([found[0].equilibrium.setting] * len(means), rel=1e-11)
 
 
 def test_a_tension_that_is_given_stands():
     found = at_common_setting(loads("gravity", LINES["hilly"], tension="12 kN"))
-    assert {one.settled.setting for one in found} == {12e3}
-    assert any(one.settled.short for one in found)
+    assert {one.equilibrium.setting for one in found} == {12e3}
+    assert any(one.equilibrium.short for one in found)
 
 
 def test_weight_on_four_strands():
     # 46.9 t on 4 strands: 115 kN, 20 t on 4 strands: 49.0 kN, with g 9.80665
     for mass, tension in (("46.9 t", 114.98e3), ("20 t", 49.03e3)):
         one = loads("gravity", {"calculation": {"gravity": "9.80665 m/s^2"}}, mass=mass, strands=4)[0]
-        assert one.settled.setting == pytest.approx(tension, rel=2e-4)
-        duty = take_up_duty([one], [one.settled.states.values()], [293.15])
+        assert one.equilibrium.setting == pytest.approx(tension, rel=2e-4)
+        duty = take_up_duty([one], [one.equilibrium.states.values()], [293.15])
         assert duty.mass == pytest.approx(float(mass.split()[0]) * 1e3, rel=1e-12)
 
 
 def test_travel_is_the_belts_elongation_over_the_strands():
     found = at_common_setting(loads("gravity", LINES["hilly"], strands=4, reserve="50 %"))
-    states = [one.settled.states.values() for one in found]
+    states = [one.equilibrium.states.values() for one in found]
     duty = take_up_duty(found, states, [253.15, 313.15, 293.15])
     lengths = found[0].line.loop.length
     steady = [
-        float(0.5 * (one.settled.steady.starts + one.settled.steady.ends) @ lengths / lengths.sum()) for one in found
+        float(0.5 * (one.equilibrium.steady.starts + one.equilibrium.steady.ends) @ lengths / lengths.sum())
+        for one in found
     ]
     moved, travel = lengths.sum() / 4.0, duty.travel
     assert travel.load == pytest.approx(moved * (max(steady) - min(steady)) / BELT, rel=1e-9)
@@ -112,7 +113,7 @@ def test_travel_is_the_belts_elongation_over_the_strands():
 
 def test_a_held_length_only_tensions_the_belt_and_feels_its_temperature():
     found = at_common_setting(loads("screw", LINES["hilly"]))
-    duty = take_up_duty(found, [one.settled.states.values() for one in found], [273.15, 303.15])
+    duty = take_up_duty(found, [one.equilibrium.states.values() for one in found], [273.15, 303.15])
     moved = found[0].line.loop.length.sum() / 2.0
     assert duty.travel.tensioning == pytest.approx(moved * duty.setting / BELT, rel=1e-9)
     assert duty.travel.load == pytest.approx(0.0, abs=1e-9 * duty.travel.tensioning)
@@ -128,13 +129,13 @@ def test_a_held_length_only_tensions_the_belt_and_feels_its_temperature():
 def test_travel_of_textile_belts(carcass, factor, stretch):
     covers = {"thickness": "5 mm", "strength": "2000 N/mm"}
     one = closed(line(belt={"carcass": covers | carcass}))
-    duty = take_up_duty([one], [one.settled.states.values()], [293.15])
+    duty = take_up_duty([one], [one.equilibrium.states.values()], [293.15])
     if factor is None:
         assert duty.travel is None
         return
     moved = one.line.loop.length.sum() / 2.0
     assert duty.travel.permanent == pytest.approx(moved * stretch, rel=1e-12)
-    highest = max(state.mean(one.line.loop.length) for state in one.settled.states.values())
+    highest = max(state.mean(one.line.loop.length) for state in one.equilibrium.states.values())
     travel = duty.travel
     assert travel.tensioning + travel.load + travel.motion == pytest.approx(
         moved * highest / (factor * 2000e3), rel=1e-9
@@ -149,9 +150,9 @@ def test_cases_on_vertical_curves_are_those_of_a_conveyor_set_so():
     cases = [LoadCase(name=name, loading=name) for name in ("empty", "full")]
     study = analyse_cases(curved, cases)
     setting = study.take_up.setting
-    assert {one.found.balance.settled.setting for one in study.results} == {setting}
-    assert study.as_given.balance.settled.setting == setting
-    assert all(not one.found.balance.settled.short for one in study.results)
+    assert {one.found.balance.equilibrium.setting for one in study.results} == {setting}
+    assert study.as_given.balance.equilibrium.setting == setting
+    assert all(not one.found.balance.equilibrium.short for one in study.results)
     take_up = open_.replace(tension=from_si(setting, "force", "N"))
     fixed = curved.replace(route=curved.route.replace(take_up=take_up))
     for case, one in zip(cases, study.results, strict=True):

@@ -76,7 +76,7 @@ def test_a_load_case_of_another_speed_is_led_by_an_inverter():
 def test_the_load_of_a_set_is_belt_lumps_and_a_raised_set():
     found = with_carry(cema_class="D", lump_factor=1.2, raised="4 mm")
     assert {duty.stretch.strand for duty in found.set_duty} == {"carry"}
-    steady, half = found.balance.settled.steady, found.line.count
+    steady, half = found.balance.equilibrium.steady, found.line.count
     bulk = 1200 / 3.6 / 4.0
     for k, duty in enumerate(found.set_duty):
         lifted = 2.0 * max(float(steady.starts[half + k]), float(steady.ends[half + k])) * 0.004 / 1.2
@@ -181,7 +181,7 @@ def take_up(**given):
 def test_a_carriage_has_way_and_speed():
     found = take_up(kind="winch", position="drive", travel="1 m", winch_speed="0.001 m/s")
     duty = common_take_up_duty([found])
-    start, steady = found.balance.settled.unsteady, found.balance.settled.steady
+    start, steady = found.balance.equilibrium.unsteady, found.balance.equilibrium.steady
     lengths = found.line.loop.length
     way = (start.mean(lengths) - steady.mean(lengths)) * lengths.sum() / (72 * 2000e3 * 2)
     assert duty.speed == pytest.approx(way / (0.5 * 4.0 / start.acceleration), rel=1e-9)
@@ -282,7 +282,7 @@ def _flywheel(found):
 def test_uncontrolled_drives_share_the_whole_force():
     found = drives({"pulley_diameter": "1 m"}, diameter_loss="3 mm")
     first, second = found.drive_duty
-    assert first.shared + second.shared == pytest.approx(found.balance.settled.force, rel=1e-9)
+    assert first.shared + second.shared == pytest.approx(found.balance.equilibrium.force, rel=1e-9)
     # alike but for the loss: the smaller pulley pulls less
     even = drives({"pulley_diameter": "1 m"}, diameter_loss="0 mm").drive_duty
     assert first.shared < even[0].shared

@@ -63,7 +63,7 @@ def test_tension_presses_on_the_rolls_inside_the_bend(left):
     """Across the panel they hold (T - m' v²) a/R by hand; the chord's sine differs by (a/R)²/24 < 1e-6."""
     stretch, loads = borne(left)
     i = left.line.loop.stretches.index(stretch)
-    steady = left.balance.settled.steady
+    steady = left.balance.equilibrium.steady
     tension = 0.5 * (steady.starts[i] + steady.ends[i])
     side = (tension - stretch.line_mass * 5.2**2) * 1.2 / 400.0
     more = math.fsum(loads[f"{name} left"] - loads[f"{name} right"] for name in ("upper", "lower"))

@@ -56,7 +56,7 @@ def formed():
 def test_both_strands_form_at_both_ends_at_their_own_tensions(formed):
     found = {check.zone.name: check for check in formed.belt_duty.transitions}
     assert set(found) == {"head", "tail", "head, return", "tail, return"}
-    steady, half = formed.balance.settled.steady, formed.line.count
+    steady, half = formed.balance.equilibrium.steady, formed.line.count
     at = {"head": steady.ends[-1], "tail": steady.starts[half],
           "head, return": steady.starts[0], "tail, return": steady.ends[half - 1]}  # fmt: skip
     for name, tension in at.items():

@@ -115,7 +115,7 @@ def test_the_loop_walked_by_hand(name):
     conveyor = line(**changes)
     found = closed(conveyor)
     mass = {"carry": 12.0 / 1.2, "return": 9.0 / 3.0}  # of the rolls, per metre
-    for state in (found.settled.states["steady"], found.settled.states["start"]):
+    for state in (found.equilibrium.states["steady"], found.equilibrium.states["start"]):
         taken = {
             f"{s.strand} {s.section}": total + state.acceleration * s.length * (s.line_mass + mass[s.strand])
             for s, _, total in along(found)
@@ -153,16 +153,16 @@ def test_feeding_lies_behind_a_tail_drive():
     found = closed(conveyor, 0.003)
     carry, back = (r.total for r in along(found))
     whole = carry + back + feeding
-    (steady,), (start,) = found.settled.steady.drives, found.settled.states["start"].drives
+    (steady,), (start,) = found.equilibrium.steady.drives, found.equilibrium.states["start"].drives
     assert steady.force == pytest.approx(whole, rel=1e-12)
     assert steady.arriving == pytest.approx(14.3e3 + back, rel=1e-12)
     assert steady.leaving == pytest.approx(14.3e3 + back - whole, rel=1e-12)
     assert steady.tight / steady.slack > math.exp(0.3 * math.pi)
     assert start.leaving < 0.0
-    short = {name for name, asked in found.settled.conditions.items() if asked > 14.3e3}
+    short = {name for name, asked in found.equilibrium.conditions.items() if asked > 14.3e3}
     assert short == {"grip, drive, steady", "grip, drive, start"}
     # carry starts with the feeding added
-    assert found.settled.steady.starts[1] == pytest.approx(steady.leaving + feeding, rel=1e-12)
+    assert found.equilibrium.steady.starts[1] == pytest.approx(steady.leaving + feeding, rel=1e-12)
 
 
 SNUB = {
@@ -186,8 +186,8 @@ def test_only_the_driven_pulley_leaves_its_bearings_to_the_drive(position, drive
     with_bearings = {s.name.removeprefix("bearings, ") for s in found.singles if s.name.startswith("bearings")}
     assert with_bearings == {"beside", "head", "bend", "tail"} - {driven}
     # 0.005 d0/D over the vector sum of the belt's tensions and the weight, where the return strand meets it
-    (side,) = found.settled.steady.drives
-    tension = side.leaving if position == "head" else found.settled.steady.ends[3]
+    (side,) = found.equilibrium.steady.drives
+    tension = side.leaving if position == "head" else found.equilibrium.steady.ends[3]
     load = math.hypot(2.0 * tension * math.sin(math.radians(15.0)), 500.0 * 9.81)
     force = next(s.total for s in found.singles if s.name == "bearings, beside")
     assert force == pytest.approx(0.005 * 120.0 / 630.0 * load, rel=1e-9)
@@ -205,11 +205,11 @@ def test_a_take_up_on_the_slack_side_stays_there_when_the_brake_is_on():
     weight = {"take_up": {"kind": "gravity", "position": "drive", "tension": "60 kN"}}
     conveyor = line(route=weight, drive={"brake_force": "20 kN"})
     found = closed(conveyor)
-    (side,) = found.settled.states["brakes on"].drives
+    (side,) = found.equilibrium.states["brakes on"].drives
     assert side.leaving == pytest.approx(60e3, rel=1e-12)
     assert side.arriving == pytest.approx(40e3, rel=1e-12)
     grip = 20e3 / math.expm1(0.35 * math.radians(200.0))
-    assert found.settled.conditions["grip, drive, brakes on"] == pytest.approx(20e3 + grip, rel=1e-12)
+    assert found.equilibrium.conditions["grip, drive, brakes on"] == pytest.approx(20e3 + grip, rel=1e-12)
 
 
 def test_cleaners_are_said_to_stand_at_the_head():

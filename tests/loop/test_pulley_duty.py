@@ -108,12 +108,12 @@ def test_two_drives_at_the_head_share_two_pulleys():
     second = HEAD | {"name": "second", "diameter": "800 mm"}
     found = calculated(route={"pulleys": [HEAD, second, TAIL]}, drive=drive)
     head, other = duties(found)["head"].steady, duties(found)["second"].steady
-    one, two = found.balance.settled.steady.drives
+    one, two = found.balance.equilibrium.steady.drives
     assert head.leaving == pytest.approx(other.arriving, rel=1e-12)
     assert (head.torque, other.torque) == pytest.approx((0.5 * one.force, 0.4 * two.force), rel=1e-9)
     # one drive round both: its force in equal parts
     both = calculated(route={"pulleys": [HEAD, second, TAIL]}, drive=DATA["drive"] | {"wrap_angle": "400 deg"})
-    (side,) = both.balance.settled.steady.drives
+    (side,) = both.balance.equilibrium.steady.drives
     head, other = duties(both)["head"].steady, duties(both)["second"].steady
     assert (head.torque, other.torque) == pytest.approx((0.25 * side.force, 0.2 * side.force), rel=1e-9)
     assert other.leaving == pytest.approx(side.leaving, rel=1e-9)

@@ -29,7 +29,7 @@ def drive(**given):
 def test_bulk_slips_at_the_friction_that_brakes_most():
     """Newton: force to design for and brakes over all mass; least friction alone would let it pass."""
     found = calculated(**drive(brake_force="60 kN", design_friction="140 %", least_friction="60 %"))
-    moving, settled = found.motions, found.balance.settled
+    moving, settled = found.motions, found.balance.equilibrium
     whole = moving.moving_mass + moving.rotating_mass
     hard = (settled.resistance(1.4) + 60e3) / whole
     assert moving.hardest[0] == pytest.approx(-hard, rel=1e-12)
@@ -41,12 +41,12 @@ def test_bulk_slips_at_the_friction_that_brakes_most():
 def test_brakes_that_grip_too_late_do_not_count():
     found = calculated(**drive(brake_force="60 kN", brake_delay="60 s", design_friction="500 %"))
     whole = found.motions.moving_mass + found.motions.rotating_mass
-    assert -found.motions.hardest[0] == pytest.approx(found.balance.settled.resistance(5.0) / whole, rel=1e-12)
+    assert -found.motions.hardest[0] == pytest.approx(found.balance.equilibrium.resistance(5.0) / whole, rel=1e-12)
 
 
 def test_a_falling_belt_held_by_its_motor_brakes_most_at_the_least_friction():
     found = calculated(route={"sections": DOWN}, **drive(start_factor=1.4, design_friction="120 %"))
-    settled = found.balance.settled
+    settled = found.balance.equilibrium
     braking = 0.4 * settled.resistance(found.line.least_friction) / settled.mass
     assert braking < 0.4 * settled.force / settled.mass < 0.0
     assert found.motions.hardest[0] == pytest.approx(braking, rel=1e-12)
@@ -56,7 +56,7 @@ def test_coasting_is_shortest_with_the_friction_to_design_for():
     found = calculated(**drive(coast_time="20 s", design_friction="150 %"))
     whole = found.motions.moving_mass + found.motions.rotating_mass
     (check,) = coasting_time(found)
-    assert check.calculated == pytest.approx(4.0 * whole / found.balance.settled.resistance(1.5), rel=1e-12)
+    assert check.calculated == pytest.approx(4.0 * whole / found.balance.equilibrium.resistance(1.5), rel=1e-12)
     assert check.calculated < found.motions.coasting.time
 
 
@@ -157,12 +157,14 @@ def test_a_single_roll_has_no_wings_to_tilt():
 def test_motors_that_hold_a_falling_belt_are_designed_for_the_least_friction():
     """The less friction, the more they hold."""
     falling, level = (calculate(load(SPECS / name)) for name in ("downhill.yaml", "in_plant_us.yaml"))
-    motor, settled, designed = falling.balance.frame.motor, falling.balance.settled, power_range(falling)
+    motor, settled, designed = falling.balance.layout.motor, falling.balance.equilibrium, power_range(falling)
     assert designed.design == pytest.approx(motor(settled.least_force), rel=1e-12)
     assert designed.design < motor(settled.design_force) < 0.0
     assert designed.design_friction == falling.line.least_friction
     climbing = level.balance
-    assert power_range(level).design == pytest.approx(climbing.frame.motor(climbing.settled.design_force), rel=1e-12)
+    assert power_range(level).design == pytest.approx(
+        climbing.layout.motor(climbing.equilibrium.design_force), rel=1e-12
+    )
 
 
 def test_a_backstop_without_its_torque_is_not_judged_by_the_brakes():

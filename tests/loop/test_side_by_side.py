@@ -24,11 +24,11 @@ EVERY = (
 def loops():
     """Loops of many plans, several of each under other forces and speeds."""
     alone = [closed(line(**case), share * FRICTION) for case in EVERY for share in (0.4, 1.0, 2.5)]
-    return [OpenLoop(one.frame, one.along, one.unit_main) for one in alone]
+    return [OpenLoop(one.layout, one.along, one.unit_main) for one in alone]
 
 
 def figures(found):
-    settled = found.settled
+    settled = found.equilibrium
     states = [
         figure
         for state in settled.states.values()
@@ -64,9 +64,9 @@ def test_a_slack_loop_leaves_the_others_alone(loops):
 @pytest.mark.parametrize("factor", [200.0, 1e8])
 def test_wraps_that_grow_faster_than_the_tension_they_need_are_refused(loops, factor):
     """Two newtons of wrap a newton of tension have no answer above zero; the rows beside it do not feel it."""
-    frame = loops[0].frame.scaled(lambda force: force)
-    frame.bends = tuple(bend.times(factor) for bend in frame.bends)
-    refused, other = close_loops([loops[0]._replace(frame=frame.scaled(lambda force: force)), loops[1]])
+    layout = loops[0].layout.scaled(lambda force: force)
+    layout.bends = tuple(bend.times(factor) for bend in layout.bends)
+    refused, other = close_loops([loops[0]._replace(layout=layout.scaled(lambda force: force)), loops[1]])
     assert isinstance(refused, NoSolutionError)
     assert "do not settle" in str(refused)
     assert figures(other) == figures(close_loops([loops[1]])[0])

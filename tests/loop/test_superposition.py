@@ -77,7 +77,7 @@ def added(conveyor):
 
 def looked_for(found):
     """The figures by the loop itself."""
-    settled = found.settled
+    settled = found.equilibrium
     grips = {
         drive.name: max(asked for name, asked in settled.conditions.items() if name.startswith(f"grip, {drive.name}, "))
         for drive in found.line.drives
@@ -160,7 +160,7 @@ def test_where_flexure_follows_the_tension_a_loading_is_closed_in_full_and_none_
     found = SectionLoadings(*at_common_setting(ends))
     every = [np.array(on) for on in itertools.product([False, True], repeat=count)]
     alone = [closed(bearing(conveyor, loading), by_sag=True) for loading in every]
-    alone = list(map(looked_for, with_take_up_at(alone, found.full.settled.take_up)))
+    alone = list(map(looked_for, with_take_up_at(alone, found.full.equilibrium.take_up)))
     for one, expected in zip(found.loaded(every), alone, strict=True):
         scale = CLOSED * one.tensions.largest
         assert looked_for(one) == pytest.approx(expected, rel=CLOSED, abs=scale)

@@ -26,7 +26,7 @@ def test_tables_are_what_was_calculated(name, tmp_path):
     assert (states["steady [N]"] >= least).all()
     assert (tables["tension_conditions"]["margin [N]"] >= -1e-6).all()
     setting = figures(tables["take_up"])["setting [N]"]
-    assert float(setting) == pytest.approx(found.settled.setting, rel=1e-14)
+    assert float(setting) == pytest.approx(found.equilibrium.setting, rel=1e-14)
     assert tables["pulleys"]["large enough"].all()
     curves = sum(section.curve is not None for section in route.sections)
     assert len(tables.get("vertical_curves", ())) == 2 * curves

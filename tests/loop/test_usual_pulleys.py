@@ -70,7 +70,7 @@ def test_usual_take_up_pulleys_resist_as_given_ones():
     ]
     given = balanced(route=bare(take_up=take_up, pulleys=listed))
     assert usual.forces.secondary == pytest.approx(given.forces.secondary, rel=1e-9)
-    assert usual.settled.setting == pytest.approx(given.settled.setting, rel=1e-9)
+    assert usual.equilibrium.setting == pytest.approx(given.equilibrium.setting, rel=1e-9)
     plain = {force.name for force in balanced(route=bare(take_up={"kind": "screw"})).singles}
     added = {force.name: force.total for force in usual.singles if force.name not in plain}
     assert added.keys() == {

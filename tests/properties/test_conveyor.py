@@ -126,7 +126,7 @@ def test_the_own_load_asked_for_in_another_way_is_the_own_load(name):
     for result in study.results:
         balance = result.found.balance
         assert balance.power.motor == pytest.approx(alone.balance.power.motor, rel=ROUNDING)
-        assert balance.settled.setting == pytest.approx(alone.balance.settled.setting, rel=ROUNDING)
+        assert balance.equilibrium.setting == pytest.approx(alone.balance.equilibrium.setting, rel=ROUNDING)
         assert [check.verdict for check in result.checks] == [check.verdict for check in alone.checks]
     year = analyse_duty(from_data(data | {"operation": {"duty": bars, "price": "0.1 EUR/kWh"}}))
     assert year.year.net_kwh == pytest.approx(1300.0 * alone.balance.power.mains / 1e3, rel=ROUNDING)

@@ -170,7 +170,7 @@ def test_motors_between_the_cases_fail_only_with_the_cases(plain: CaseStudy) -> 
 
 
 def test_a_weight_for_one_temperature_fails_at_another(plain: CaseStudy) -> None:
-    least, *_, most = sorted(result.found.balance.settled.needed for result in plain.results)
+    least, *_, most = sorted(result.found.balance.equilibrium.needed for result in plain.results)
     assert least < most
     for tension, verdict in ((0.5 * (least + most), "FAIL"), (1.001 * most, "pass")):
         route = plain.conveyor.route.as_data()
@@ -181,7 +181,7 @@ def test_a_weight_for_one_temperature_fails_at_another(plain: CaseStudy) -> None
 def test_safety_is_the_least_of_all_cases(plain: CaseStudy) -> None:
     line = plain.conveyor
     strength = line.belt.carcass.strength.to("N/m").magnitude * line.belt.width.to("m").magnitude
-    running = [state for result in plain.results for state in result.found.balance.settled.running]
+    running = [state for result in plain.results for state in result.found.balance.equilibrium.running]
     least = min(strength / state.largest for state in running)
     assert {state.name for state in running} == {"steady", "design friction"}
     assert governing(plain, "belt_safety", "steady").calculated == pytest.approx(least, rel=1e-12)
@@ -194,7 +194,7 @@ def test_grip_is_checked_on_every_drive_in_every_state(plain: CaseStudy) -> None
         grown = math.expm1(drive.friction * drive.wrap_angle)
         for check in (check for check in result.checks if check.key == "drive_grip"):
             name = check.subject.text().removeprefix(f"grip of {drive.name}, ")
-            states = result.found.balance.settled.states | result.found.motions.states
+            states = result.found.balance.equilibrium.states | result.found.motions.states
             side = states[name].drives[0]
             assert check.calculated == pytest.approx(side.slack, rel=1e-12)
             assert check.required * grown == pytest.approx(abs(side.force), rel=1e-9, abs=1e-9)
@@ -216,7 +216,7 @@ def test_the_least_margin_told_is_the_least_there_is_where_the_take_up_has_one(p
     given = plain.conveyor.replace(cases=[])
     settled = calculate(given)
     assert "; the take-up holds the least that grip and sag ask for; otherwise least margin" in told(settled)[0]
-    unit = {"kind": "gravity", "tension": f"{1.001 * settled.balance.settled.needed:.9g} N"}
+    unit = {"kind": "gravity", "tension": f"{1.001 * settled.balance.equilibrium.needed:.9g} N"}
     words, least = told(calculate(with_fields(given, {"route.take_up": unit})))
     assert f"are met; least margin {percent(least, 1)}, " in words
 
@@ -264,16 +264,16 @@ def test_the_take_up_and_the_pulleys_are_sized_without_a_case_that_the_data_do_n
 ) -> None:
     given, found = cold
     beyond, *others = found.results
-    settled = beyond.found.balance.settled
+    settled = beyond.found.balance.equilibrium
     assert settled.needed > 1.01 * settled.setting
-    needed = max(one.found.balance.settled.needed for one in others)
+    needed = max(one.found.balance.equilibrium.needed for one in others)
     assert settled.setting == pytest.approx(needed, rel=1e-9)
     assert found.take_up.needed == pytest.approx(needed, rel=1e-9)
     assert found.take_up.warmth == pytest.approx(45.0)  # its cold is no figure of the rubber
     both = every_load(found.conveyor)
     assert both.cases is not None
-    assert both.take_up == pytest.approx(both.cases.results[0].found.balance.settled.setting, rel=1e-12)
-    asked = max(load.balance.settled.needed for load in both.designing)  # by a load state at -5 °C
+    assert both.take_up == pytest.approx(both.cases.results[0].found.balance.equilibrium.setting, rel=1e-12)
+    asked = max(load.balance.equilibrium.needed for load in both.designing)  # by a load state at -5 °C
     assert needed < both.take_up == pytest.approx(asked, rel=1e-9)
     assert beyond.temperature not in {load.temperature for load in both.designing}
     contents = given.contents(Studies(cases=found)).by_key

@@ -48,7 +48,7 @@ def failed(checks_of):
 def test_example_passes(line, all_of):
     assert failed(all_of) == []
     balance = conveyor.analyse(line).balance
-    motor = balance.frame.motor(balance.settled.design_force)
+    motor = balance.layout.motor(balance.equilibrium.design_force)
     assert motor > balance.power.motor
     assert all_of["motor power, drive (design friction)"].found == f"{motor / 1e3:.0f} kW"
     assert all_of["motor power, drive (design friction)"].verdict == "pass"
@@ -82,7 +82,7 @@ def test_data_cover_the_excited_band_where_they_reach_beyond_both_its_ends(low, 
 
 def test_us_units(line):
     of, balance = found(line, "US")["motor power, drive (design friction)"], conveyor.analyse(line).balance
-    assert of.found == f"{balance.frame.motor(balance.settled.design_force) / 745.699872:.0f} hp"  # 550 ft lbf/s
+    assert of.found == f"{balance.layout.motor(balance.equilibrium.design_force) / 745.699872:.0f} hp"  # 550 ft lbf/s
     assert of.asked == "at most 300 hp"
 
 
@@ -138,7 +138,7 @@ def test_a_regenerative_belt_that_goes_slack_fails_and_is_warned_of():
     line = conveyor.load(SPECS / "downhill_brakes.yaml")
     route = line.route.as_data()
     free = line.replace(route=route | {"take_up": {"kind": "gravity", "position": "head"}})
-    needed = conveyor.analyse(free).balance.settled.needed
+    needed = conveyor.analyse(free).balance.equilibrium.needed
     held = {"kind": "gravity", "position": "head", "tension": f"{0.7 * needed} N"}
     result = conveyor.analyse(line.replace(route=route | {"take_up": held}))
     assert any(subject.startswith("minimum belt tension, all states") for subject in _failed(result))
@@ -281,7 +281,7 @@ def test_on_a_slope_the_belt_holds_less():
 def test_motors_that_generate_are_held_to_the_friction_that_is_certain():
     """Downhill less friction brakes less: the motors hold what the least certain friction leaves them."""
     result = conveyor.analyse(conveyor.load(SPECS / "downhill_brakes.yaml"))
-    motor, settled = result.balance.frame.motor, result.balance.settled
+    motor, settled = result.balance.layout.motor, result.balance.equilibrium
     assert settled.least_force < settled.force < 0.0
     found = [check for check in result.checks if check.key == "motor_power"]
     for drive, check in zip(result.line.drives, found, strict=True):
@@ -314,7 +314,7 @@ def test_the_classical_power_stands_on_page_one_with_its_difference_by_cause(lin
     rows = {row.subject: row for row in result.contents(system="SI")["governing_figures"].rows}
     row = rows["classical motor power, f = 0.02"]
     balance = result.balance
-    there = balance.frame.motor(balance.classical.total)
+    there = balance.layout.motor(balance.classical.total)
     assert row.value == f"{there / 1e3:.3g} kW"
     pattern = r"f 0\.0200 for (0\.\d+) \(([\d,.]+) kW for ([\d,.]+) kW: ([^)]*)\)"
     f, by_f, main, parts = re.search(pattern, row.where).groups()

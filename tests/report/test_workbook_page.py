@@ -20,6 +20,12 @@ from conveyor.studies.states import StateRefusal
 ROOT = Path(__file__).parent.parent.parent
 SPECS = ROOT / "examples" / "specs"
 CONVEYOR, COMPARISON = "Workbook of a conveyor", "Workbook of a comparison"
+ADD = "in a workbook, but not in the page: a row in conveyor/_reference/workbook.md, then " + (
+    "conveyor schema --workbook > docs/workbook.md"
+)
+GIVE = (
+    "in workbook.md, but in no example: give it in `_of_a_rare_spec`, or remove it from conveyor/_reference/workbook.md"
+)
 STATES = {
     "steady",
     "braking",
@@ -162,16 +168,31 @@ def test_the_page_is_made_of_its_words():
 
 @pytest.mark.parametrize("book", [CONVEYOR, COMPARISON])
 def test_sheets(page, book):
-    assert page[0][book] == list({CONVEYOR: (SUMMARY_SHEET, *SHEETS), COMPARISON: COMPARISON_SHEETS}[book])
+    sheets = list({CONVEYOR: (SUMMARY_SHEET, *SHEETS), COMPARISON: COMPARISON_SHEETS}[book])
+    assert page[0][book] == sheets, (
+        "## Sheet: <name> in conveyor/_reference/workbook.md, in the order of `excel.SHEETS`"
+    )
+
+
+def test_every_sheet_has_its_place_in_the_workbook(written):
+    for made, known in zip(written, (SHEETS, COMPARISON_SHEETS), strict=True):
+        new = {sheet for contents in made for sheet in contents.sheets} - set(known)
+        assert new == set(), "give it its place and what fills it in `SHEETS` of conveyor/report/excel.py"
+
+
+def _check_told(told, found, where):
+    """Fail with what to do where the page and the workbooks differ."""
+    assert set(found) - set(told) == set(), f"{where}: {ADD}"
+    assert set(told) - set(found) == set(), f"{where}: {GIVE}"
 
 
 @pytest.mark.parametrize("book", [CONVEYOR, COMPARISON])
 def test_tables_columns_and_kinds(page, written, book):
     columns, _ = _tables(written[book == COMPARISON])
     told = {key[1:]: rows for key, rows in page[1].items() if key[0] == book}
-    assert told.keys() == columns.keys()
+    _check_told(told, columns, "tables")
     for key, rows in columns.items():
-        assert told[key] == rows, key
+        _check_told(told[key], rows, key)
 
 
 @pytest.mark.parametrize("book", [CONVEYOR, COMPARISON])
@@ -179,7 +200,7 @@ def test_names_of_figures(page, written, book):
     _, names = _tables(written[book == COMPARISON])
     told = {key[1]: rows for key, rows in page[2].items() if key[0] == book}
     for key, rows in names.items():
-        assert told[key] == rows, key
+        _check_told(told[key], rows, key)
 
 
 def test_the_workbooks_have_these_names_and_no_others(page, written):

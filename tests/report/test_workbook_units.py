@@ -210,7 +210,7 @@ def test_names_hold_the_figures_of_the_analysis(brakes, tmp_path):
         "effective_tension": balance.forces.total,
         "tight_side_tension": balance.tensions.tight,
         "slack_side_tension": balance.tensions.slack,
-        "take_up_setting": balance.settled.setting,
+        "take_up_setting": balance.equilibrium.setting,
         "equivalent_f": balance.friction_factor,
         "indentation_force": balance.forces.indentation,
         "indentation_share": balance.forces.indentation / balance.forces.main,

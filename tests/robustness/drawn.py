@@ -197,12 +197,12 @@ def _not_finite(value: object, at: str = "") -> Iterator[str]:
 def _forces_add_up(result: conveyor.Analysis) -> None:
     """Forces sum to the pull, it to that of the drives and, with the speed, to the power; so round the loop."""
     balance = result.balance
-    force, every = balance.settled.force, [one.total for one in balance.every]
+    force, every = balance.equilibrium.force, [one.total for one in balance.every]
     amount = math.fsum(abs(one) for one in every) + 1.0
     assert abs(math.fsum(every) - force) <= _ROUNDING * amount
-    assert abs(math.fsum(drive.force for drive in balance.settled.steady.drives) - force) <= _ROUNDING * amount
+    assert abs(math.fsum(drive.force for drive in balance.equilibrium.steady.drives) - force) <= _ROUNDING * amount
     assert math.isclose(balance.power.belt, force * balance.line.speed, rel_tol=_ROUNDING, abs_tol=1e-6)
-    for state in balance.settled.states.values():
+    for state in balance.equilibrium.states.values():
         largest = max(map(abs, (state.smallest, *(drive.arriving for drive in state.drives))))
         for drive in state.drives:
             assert abs(drive.arriving - drive.leaving - drive.force) <= _ROUNDING * (amount + largest)
@@ -227,7 +227,7 @@ def _power_grows_with_friction(line: conveyor.Conveyor, result: conveyor.Analysi
 
 def _slack_belts_fail(result: conveyor.Analysis, verdicts: set[str]) -> None:
     """Where a tension is negative, in whatever state, a check fails."""
-    states = result.balance.settled.states.values()
+    states = result.balance.equilibrium.states.values()
     if any(state.smallest < 0.0 for state in states):
         assert "FAIL" in verdicts
 

@@ -76,7 +76,7 @@ def test_what_is_missing_is_said_as_tension_and_as_weight(one_drive: Path) -> No
 def test_a_slack_belt_in_a_curve_presses_on_nothing() -> None:
     """At 2 t the belt is slack in the valley: its rolls bear belt and bulk alone."""
     found = conveyor.analyse(with_fields(conveyor.load(SPEC), {"route.take_up.mass": "2 t"}))
-    steady = found.balance.settled.steady
+    steady = found.balance.equilibrium.steady
     i = next(
         i
         for i, stretch in enumerate(found.line.loop.stretches)

@@ -147,7 +147,7 @@ def test_an_outlier_is_named_and_pulls_nothing() -> None:
     np.testing.assert_allclose(fit.series.loss(omega), clean.series.loss(omega), rtol=0.01)
     # it stays in the errors that are told: a half less than the datum
     assert fit.loss.worst == pytest.approx(-0.5, abs=0.03)
-    assert fit.errors[1, 40] == pytest.approx(fit.loss.worst, rel=1e-12)
+    assert fit.relative_errors[1, 40] == pytest.approx(fit.loss.worst, rel=1e-12)
 
 
 def test_held_equilibrium_allows_slow_times() -> None:

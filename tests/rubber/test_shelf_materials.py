@@ -216,7 +216,7 @@ def friction(name: str, *celsius: float) -> np.ndarray:
     """Indentation of a cover on the roll of its tests at temperatures over that at 20 degC, the strain of the curve."""
     rubber = shelf.compound(name)
     contacts = [
-        RollContact(radius=0.1095, spacing=1.0, cover_thickness=7e-3, speed=5.0, rubber=rubber.series(t + 273.15))
+        RollContact(radius=0.1095, spacing=1.0, cover_thickness=7e-3, speed=5.0, series=rubber.series(t + 273.15))
         for t in (20.0, *celsius)
     ]
     solved = np.array([float(one) for one in indentation_resistances(contacts, [3e3] * len(contacts), 1e-4)])
@@ -276,7 +276,7 @@ def test_glass_temperatures_five_kelvin_off_are_in_the_band(script: dict[str, An
     rubber = shelf.compound("standard-cover")
 
     def at(series: Any) -> RollContact:
-        return RollContact(radius=0.1095, spacing=1.0, cover_thickness=7e-3, speed=5.0, rubber=series)
+        return RollContact(radius=0.1095, spacing=1.0, cover_thickness=7e-3, speed=5.0, series=series)
 
     def carried(pairs: list[tuple[Any, Any]]) -> Any:
         """Friction at -30 degC over that at 20 degC."""

@@ -398,7 +398,7 @@ def roll(load):
     """Working strain and angular frequency of a 159 mm roll on a 5 mm cover at 5 m/s."""
 
     def strain_of(series):
-        contact = RollContact(radius=0.0795, spacing=SPACING, cover_thickness=5e-3, speed=SPEED, rubber=series)
+        contact = RollContact(radius=0.0795, spacing=SPACING, cover_thickness=5e-3, speed=SPEED, series=series)
         found = solve(to_problem(contact, load))
         inside = interior(found)
         seen.append(found.friction * load)

@@ -99,7 +99,7 @@ def test_a_class_stiff_enough_for_the_take_up_is_chosen_where_the_strength_alone
     best = size_conveyor(given, best=1).best
     classes = SizingTask(given).carcasses["EP"]
     weaker = [one for one in classes if one.strength < best.chosen.carcass.strength][-1]
-    tension = best.found.balance.settled.steady.largest
+    tension = best.found.balance.equilibrium.steady.largest
     assert weaker.strength > 8.0 * tension / best.choice.trough.width.belt  # DIN 22101: safety 8
     spec = design_spec(SizingTask(given), best.choice, _of_class(given, best, weaker), "x")
     (as_weak,) = calculate_many([Variant(spec)])
@@ -211,7 +211,7 @@ def test_a_belt_that_would_go_slack_in_a_stop_has_its_take_up_set_higher():
     assert 0.0 <= best.chosen.take_up - loose.take_up - slack < 0.05 * best.chosen.take_up  # a wider class weighs more
     first, second, *_ = best.found.pulley_duty  # both driven pulleys stand in the spec
     assert (first.pulley.name, second.pulley.name) == ("head", "head 2")
-    steady = best.found.balance.settled.steady
+    steady = best.found.balance.equilibrium.steady
     assert [side.arriving for side in steady.drives] == pytest.approx([p.steady.arriving for p in (first, second)])
     assert first.steady.leaving == pytest.approx(second.steady.arriving, rel=1e-3)  # nothing but a pulley between
 

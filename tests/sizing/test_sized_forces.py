@@ -83,7 +83,7 @@ def test_the_take_up_gives_the_slackest_load_what_it_lacks():
     def load(setting: float, needed: float, *smallest: float) -> SimpleNamespace:
         settled = SimpleNamespace(setting=setting, needed=needed)
         states = [SimpleNamespace(smallest=one) for one in smallest]
-        return SimpleNamespace(balance=SimpleNamespace(settled=settled), motion_states=states)
+        return SimpleNamespace(balance=SimpleNamespace(equilibrium=settled), motion_states=states)
 
     slack, taut = load(20e3, 18e3, 3e3, -4.2e3), load(12e3, 12e3, 1e3)
     for loads in ([slack, taut], [taut, slack]):

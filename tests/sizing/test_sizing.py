@@ -112,7 +112,7 @@ def test_a_design_holds_what_its_report_checks():
     best = size_conveyor(read_duty(DUTIES / "overland.yaml"), best=1).best
     loads = every_load(best.conveyor)
     assert not [check.subject.text() for check in loads.governing if check.failed]
-    assert best.found.balance.settled.setting == pytest.approx(loads.take_up, rel=1e-6)
+    assert best.found.balance.equilibrium.setting == pytest.approx(loads.take_up, rel=1e-6)
 
 
 def test_no_weaker_class_and_no_smaller_motor_would_do(small, sized):
@@ -123,7 +123,7 @@ def test_no_weaker_class_and_no_smaller_motor_would_do(small, sized):
         assert design.safety >= 8.0
         (motor,) = design.chosen.motors
         balance = design.coldest.balance
-        needed = small.rules.motor_reserve * abs(balance.frame.motor(balance.settled.design_force))
+        needed = small.rules.motor_reserve * abs(balance.layout.motor(balance.equilibrium.design_force))
         assert (
             needed <= motor <= 1.35 * needed
         )  # the widest step of the series: 1.1 to 1.5 of small, 1.33 of large ones
@@ -220,7 +220,7 @@ def test_what_varies_around_the_best_passes_through_it(small, sized):
 def test_sets_stand_no_farther_apart_than_sag_allows(sized):
     for design in sized.designs:
         for one in design.pair:
-            steady = one.balance.settled.steady
+            steady = one.balance.equilibrium.steady
             for i, stretch in enumerate(one.line.stretches[: one.line.count], start=one.line.count):
                 lowest = min(steady.starts[i], steady.ends[i])
                 load = (stretch.belt_mass + stretch.bulk_mass) * one.line.gravity

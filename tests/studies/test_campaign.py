@@ -179,7 +179,7 @@ def test_order_and_number_of_workers_change_nothing(line, tmp_path, monkeypatch)
 
 def test_a_point_alone_is_as_among_others(line, monkeypatch):
     study = campaign(line)
-    points = list(study.listed.points())
+    points = list(study.require_list_plan().points())
     together = evaluate_points(study.job, points)
     again = [
         evaluate_points(study.job, [point])[0] for point in points
@@ -212,7 +212,7 @@ def test_what_batches_before_made_changes_no_bit(monkeypatch):
         long,
         shelf.compound,
     )
-    points = list(study.listed.points())
+    points = list(study.require_list_plan().points())
     batches = [points[:2], points[2:4], points[4:6], points[6:]]
     forward = [evaluate_points(study.job, batch) for batch in batches]
     backward = [evaluate_points(study.job, batch) for batch in reversed(batches)][::-1]

@@ -162,7 +162,7 @@ def test_specs_that_share_a_strand_share_its_stretches_and_drags():
     assert first.strands.each[0] is not second.strands.each[0]
     assert second.stretches[1].spacing == 2.0
     alone = calculate(wider)
-    assert second.rotation.tolist() == alone.line.rotation.tolist()
+    assert second.roll_drag_forces.tolist() == alone.line.roll_drag_forces.tolist()
 
 
 def test_one_result_a_case_speed_and_temperature(found):
@@ -262,8 +262,8 @@ def test_downhill_the_low_friction_feeds_back_most(downhill):
     full = next(r for r in study.results if r.case.name == "full")
     power, (low, high) = full.found.balance.power, full.motors
     assert low < power.motor < 0.0
-    settled = full.found.balance.settled
-    assert high == pytest.approx(full.found.balance.frame.motor(settled.design_force), rel=ROUNDING)
+    settled = full.found.balance.equilibrium
+    assert high == pytest.approx(full.found.balance.layout.motor(settled.design_force), rel=ROUNDING)
     assert high > power.motor
     assert power.belt < power.motor  # the train's losses are on the way to the motor
     worst = {g.figure: g for g in study.governing}["minimum motor power"]
@@ -287,7 +287,7 @@ def test_governing_cases_are_the_extremes_of_all(found):
         "minimum motor power": (min, lambda r: r.motors[0]),
         "maximum belt tension": (max, lambda r: r.found.balance.tensions.largest),
         "minimum belt tension, steady": (min, lambda r: r.found.balance.tensions.smallest),
-        "required take-up tension": (max, lambda r: r.found.balance.settled.needed),
+        "required take-up tension": (max, lambda r: r.found.balance.equilibrium.needed),
         "maximum roll load": (max, lambda r: r.heaviest_roll[0]),
         "maximum indentation": (max, lambda r: r.found.balance.forces.indentation),
     }
@@ -342,7 +342,7 @@ def test_each_of_several_drives_has_its_share_of_the_motors(line):
     assert (first.drive, second.drive) == ("drive", "second")
     assert second.needed / first.needed == pytest.approx(2.0 / 3.0, rel=1e-12)
     balance = study.results[0].found.balance
-    whole = balance.frame.motor(balance.settled.design_force)
+    whole = balance.layout.motor(balance.equilibrium.design_force)
     assert first.needed + second.needed == pytest.approx(whole, rel=1e-12)
 
 

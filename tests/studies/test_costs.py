@@ -71,7 +71,7 @@ def test_every_price_alone_is_that_of_its_part(result, name, price, expected):
 
 def test_the_take_up_costs_by_what_it_is_set_to(result):
     costs = costed(result, take_up_force="1 EUR/kN")
-    assert costs.whole_capital == pytest.approx(result.balance.settled.setting / 1e3, rel=1e-12)
+    assert costs.whole_capital == pytest.approx(result.balance.equilibrium.setting / 1e3, rel=1e-12)
 
 
 def test_another_rubber_than_that_of_the_top_cover_is_a_special_one(line):

@@ -361,7 +361,9 @@ def test_figures_of_all_loads_are_those_of_power(tmp_path):
     }
     with ResultStore(tmp_path / "a") as known:
         study, (own, slower) = designed(given, known, **plan, best={})
-        assert {len(study.answer(known, (study.key(p), p))) for p in study.listed.points()} == {1 + len(ALL_LOADS)}
+        assert {len(study.answer(known, (study.key(p), p))) for p in study.require_list_plan().points()} == {
+            1 + len(ALL_LOADS)
+        }
     assert own.keeps
     assert slower.broken == ("all_loads_failed",)
     found = conveyor.analyse(given)
@@ -404,7 +406,7 @@ def test_a_belt_by_its_rating_has_a_use_and_no_safety(tmp_path):
 def test_what_is_sought_without_a_word_is_the_least_power_and_the_most_safety(line):
     for asked, sought in (("motor_power", "least"), ("belt_safety_steady", "most"), ("flow", "most")):
         study = campaign(line, states=[], figures=[], best={}, outputs=[asked])
-        assert study_objectives(study.listed, study.figures, study.base) == {asked: sought}
+        assert study_objectives(study.require_list_plan(), study.figures, study.base) == {asked: sought}
 
 
 def test_varied_diameters_say_that_the_usual_bearing_changes_with_them(line):

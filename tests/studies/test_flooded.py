@@ -48,11 +48,11 @@ def test_it_is_the_trough_to_the_belts_edges_and_its_heap(own, flooded):
 
 def test_it_is_what_a_spec_of_that_flow_comes_to(own, flooded):
     """At the take-up's setting of the design, not at one of its own."""
-    setting = own.balance.settled.setting
+    setting = own.balance.equilibrium.setting
     flow = {"material.flow": f"{flooded.found.line.flow!r} kg/s"}
     asked = conveyor.analyse(with_fields(own.conveyor, flow)).balance.held(setting)
     found = flooded.found.balance
-    assert found.settled.setting == pytest.approx(setting, rel=1e-12)
+    assert found.equilibrium.setting == pytest.approx(setting, rel=1e-12)
     assert found.forces.total == pytest.approx(asked.forces.total, rel=CONTACTS)
     assert found.tensions.largest == pytest.approx(asked.tensions.largest, rel=CONTACTS)
     assert found.forces.lift == pytest.approx(asked.forces.lift, rel=1e-9)

@@ -38,7 +38,7 @@ def found(line):
 
 def test_one_setting_serves_every_load(line, found):
     alone = analyse(line)
-    assert every_load(line).take_up > 1.05 * alone.balance.settled.setting
+    assert every_load(line).take_up > 1.05 * alone.balance.equilibrium.setting
     told = alone.to_dict(found)["take_up"]
     assert told["setting_N"] == pytest.approx(every_load(line).take_up, rel=RTOL)
     assert told["least_setting_N"] == pytest.approx(told["setting_N"], rel=2e-9)  # the least, both ways
@@ -55,15 +55,15 @@ def test_studies_of_one_report_have_its_power(found):
 
 def test_scenarios_begin_with_the_weight_of_the_report(line, found):
     rides, given = prepare_setups(line, standard_scenarios(line))
-    assert {ride.setting for ride in rides} == {given.balance.settled.setting}
-    assert given.balance.settled.setting == pytest.approx(found.states.setting, rel=RTOL)
+    assert {ride.setting for ride in rides} == {given.balance.equilibrium.setting}
+    assert given.balance.equilibrium.setting == pytest.approx(found.states.setting, rel=RTOL)
 
 
 def test_travel_of_the_carriage_counts_every_load(line, found):
     own = analyse(line)
     alone, told = own.take_up.travel, own.to_dict(found)["take_up"]
-    lowest = min(state.balance.settled.steady.mean(state.balance.line.loop.length) for state in found.states.states)
-    assert lowest < own.balance.settled.steady.mean(own.line.loop.length)
+    lowest = min(state.balance.equilibrium.steady.mean(state.balance.line.loop.length) for state in found.states.states)
+    assert lowest < own.balance.equilibrium.steady.mean(own.line.loop.length)
     assert told["travel_m"] > alone.whole
 
 
@@ -139,10 +139,10 @@ def braked():
 
 def test_a_take_up_on_the_slack_side_has_one_place_under_every_load(braked):
     loads = every_load(braked)
-    force = [one.balance.settled.force for one in loads.designing]
+    force = [one.balance.equilibrium.force for one in loads.designing]
     assert force[0] < 0.0 < max(force)
     for one in loads.designing:
-        (drive,) = one.balance.settled.steady.drives
+        (drive,) = one.balance.equilibrium.steady.drives
         assert drive.arriving == pytest.approx(loads.take_up, rel=1e-9)
 
 

@@ -96,10 +96,10 @@ def test_lift_and_bulk_by_hand():
         assert one.balance.forces.lift == pytest.approx(line_mass * 9.81 * 0.6, rel=SAME)
     assert [stretch.section for stretch in back.line.stretches[:2]] == ["east", "west"]
     assert [stretch.bulk_mass > 0.0 for stretch in back.line.stretches[:2]] == [False, True]
-    (drive,) = back.balance.settled.steady.drives
+    (drive,) = back.balance.equilibrium.steady.drives
     # the drive is at the tail now: it pulls the return strand and the take-up stands at the slack carry strand's end
     assert back.line.drives[0].spot.boundary != forth.line.drives[0].spot.boundary
-    assert drive.force == pytest.approx(back.balance.settled.force, rel=SAME)
+    assert drive.force == pytest.approx(back.balance.equilibrium.force, rel=SAME)
 
 
 def test_cases_are_checked_both_ways_at_one_take_up():

@@ -49,17 +49,17 @@ def found(line, own):
 
 
 def test_the_four_are_full_calculations_at_the_take_up_of_the_report(line, own, found):
-    setting = own.balance.settled.setting
+    setting = own.balance.equilibrium.setting
     for key, loading in (("full", "full"), ("empty", "empty"), ("inclines", "inclines only"),
                          ("declines", "declines only")):  # fmt: skip
         one = with_case(line, LoadCase(name=loading, loading=loading))
-        take_up, friction = own.balance.settled.take_up, own.line.design_friction
+        take_up, friction = own.balance.equilibrium.take_up, own.line.design_friction
         (alone,) = calculate_many([Variant(one, take_up=take_up, design_friction=friction)])
         state = found.state(key)
-        assert state.balance.settled.setting == setting
+        assert state.balance.equilibrium.setting == setting
         assert state.balance.forces.total == pytest.approx(alone.balance.forces.total, rel=2.0 * RTOL)
         assert state.balance.tensions.largest == pytest.approx(alone.balance.tensions.largest, rel=2.0 * RTOL)
-        assert state.balance.settled.needed == pytest.approx(alone.balance.settled.needed, rel=2.0 * RTOL)
+        assert state.balance.equilibrium.needed == pytest.approx(alone.balance.equilibrium.needed, rel=2.0 * RTOL)
 
 
 def test_sections_that_a_state_loads_are_said(found):
@@ -92,8 +92,8 @@ def test_no_loading_calculated_in_full_beats_the_worst(line, found):
     assert found.state("worst").balance.power.belt * margin >= power
     tight = max(one.tensions.largest for one in every)
     assert found.state("worst_largest_tension").balance.tensions.largest * margin >= tight
-    asked = max(one.settled.needed for one in every)
-    assert found.state("worst_tension_of_the_take_up").balance.settled.needed * margin >= asked
+    asked = max(one.equilibrium.needed for one in every)
+    assert found.state("worst_tension_of_the_take_up").balance.equilibrium.needed * margin >= asked
 
 
 def test_the_worst_may_be_what_installed_motors_do_not_give(line, own):
@@ -115,9 +115,9 @@ def test_cold_cases_are_looked_at_too(line):
     found = calculate_studies(line.replace(cases=cases))
     worst = found.states.state("worst")
     assert worst.temperature == pytest.approx(253.15)
-    setting = found.cases.as_given.balance.settled.setting
-    assert {state.balance.settled.setting for state in found.states.states} == {setting}
-    assert {result.found.balance.settled.setting for result in found.cases.results} == {setting}
+    setting = found.cases.as_given.balance.equilibrium.setting
+    assert {state.balance.equilibrium.setting for state in found.states.states} == {setting}
+    assert {result.found.balance.equilibrium.setting for result in found.cases.results} == {setting}
     warm = found.states.state("full")
     assert warm.temperature == pytest.approx(293.15)
     assert worst.balance.power.belt > warm.balance.power.belt

@@ -122,8 +122,10 @@ def test_with_pulleys_no_loading_is_worse_by_more_than_what_bends_the_belt(seed)
     conveyor = route(np.random.default_rng(500 + seed), 4, PULLEYS)
     states, governing = reported(conveyor)
     loads = list(every_loading(conveyor, states.take_up))
-    bends = max(math.fsum(found.balance.settled.bends) + found.balance.forces.parts["flexure"] for _, found in loads)
-    lowest = min(abs(found.balance.settled.steady.smallest) for _, found in loads)
+    bends = max(
+        math.fsum(found.balance.equilibrium.bends) + found.balance.forces.parts["flexure"] for _, found in loads
+    )
+    lowest = min(abs(found.balance.equilibrium.steady.smallest) for _, found in loads)
     never_worse(governing, loads, 2.0 * bends / lowest)
 
 
@@ -272,7 +274,7 @@ def test_motors_not_given_start_the_empty_belt_with_what_the_full_one_needs():
     conveyor = from_data(given)
     states, governing = reported(conveyor)
     (start,) = (check for (key, _), check in governing.items() if key == "breakaway")
-    needs = max(state.balance.settled.force for state in states.states)
+    needs = max(state.balance.equilibrium.force for state in states.states)
     assert start.calculated == pytest.approx(1.3 * needs, rel=1e-12)
     empty = states.load(states.state("empty")).found
     assert empty.motions.start.standstill < empty.motions.start.breakaway < 1.3 * needs

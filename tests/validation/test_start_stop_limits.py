@@ -33,7 +33,7 @@ def ridden(conveyor, scenario):
     )
     loop = CutLoop.of(steady)
     scene = ScenarioUnit.of(Scenario.from_data({"name": "test"} | scenario), conveyor)
-    return ScenarioSetup(scene, loop, loop, found.settled.setting)
+    return ScenarioSetup(scene, loop, loop, found.equilibrium.setting)
 
 
 def followed(conveyor, scenario, step=0.02):
@@ -76,7 +76,7 @@ def test_a_running_belt_keeps_its_steady_tensions(changes):
     """Everywhere the package's own, and they stay: what is left is where a pulley is within its cell."""
     drive = DATA["drive"] | MASSES | changes.get("drive", {})
     found = followed(line(**{**changes, "drive": drive}), NOTHING)
-    steady = found.setup.loop.steady.balance.settled.steady
+    steady = found.setup.loop.steady.balance.equilibrium.steady
     pairs = list(quiet(found, steady))
     assert len(pairs) > 0.5 * found.middles.size
     for tensions in (found.record.tensions[0], found.record.tensions[-1]):
@@ -90,7 +90,7 @@ def test_a_running_belt_keeps_its_steady_tensions(changes):
 def test_a_running_belt_has_its_highest_steady_tension_at_the_pulley_however_long_its_cells(step):
     """Half of what lies along a cell stands between its middle and the pulley: 5 % of this belt's in cells of 150 m."""
     found = followed(line(drive=DATA["drive"] | MASSES), NOTHING, step)
-    assert found.highest == pytest.approx(found.setup.loop.steady.balance.settled.steady.largest, rel=1e-9)
+    assert found.highest == pytest.approx(found.setup.loop.steady.balance.equilibrium.steady.largest, rel=1e-9)
 
 
 def test_a_very_slow_start_has_the_quasi_static_tensions():
@@ -98,14 +98,14 @@ def test_a_very_slow_start_has_the_quasi_static_tensions():
     factor = 1.3
     conveyor = line(drive=DATA["drive"] | MASSES | {"start_factor": factor}, route={"feeding": NO_RUSH})
     found = closed(conveyor)
-    mass = found.settled.mass
-    time = 0.5 * np.pi * found.line.speed * mass / ((factor - 1.0) * found.settled.force)
+    mass = found.equilibrium.mass
+    time = 0.5 * np.pi * found.line.speed * mass / ((factor - 1.0) * found.equilibrium.force)
     starter = {"kind": "inverter", "ramp": "cosine", "time": f"{time:.6f} s", "slip": "0.5 %"}
     made = followed(
         conveyor, {"begins": "at rest", "events": [{"do": "start"}], "starter": starter, "duration": f"{time:.3f} s"},
         step=0.04,
     )  # fmt: skip
-    start = made.setup.loop.steady.balance.settled.states["start"]
+    start = made.setup.loop.steady.balance.equilibrium.states["start"]
     half = int(np.argmin(np.abs(made.record.times - 0.5 * time)))
     pairs = list(quiet(made, start))
     got = np.array([made.record.tensions[half, k] for k, _ in pairs])

@@ -143,7 +143,7 @@ class GridFields:
         """Displacement, linear between the nodes."""
         step = 2.0 * math.pi / self.grid.points
         place = np.arange(self.grid.points + 1) * step
-        w = self.grid.surface
+        w = self.grid.surface_displacement
         out: Array = np.interp(np.mod(x, 2.0 * math.pi), place, np.append(w, w[0]))
         return out
 

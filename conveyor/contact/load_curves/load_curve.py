@@ -308,11 +308,12 @@ def frictions(curves: Sequence[LoadCurve], pressures: Sequence[ArrayLike]) -> li
     for members in by_degree.values():
         chosen = [curves[i] for i in members]
         sizes = [given[i].size for i in members]
-        log_p, drags = np.stack([curve._columns[:, :2] for curve in chosen], axis=-1).swapaxes(0, 1)  # noqa: SLF001
+        log_p, friction_columns = np.stack([curve._columns[:, :2] for curve in chosen], axis=-1).swapaxes(0, 1)  # noqa: SLF001
         t = _invert_loads(log_p, [np.log(given[i]).ravel() for i in members])
         widths = np.array([(c._centre - math.log(c.problem.rho), c._half) for c in chosen])  # noqa: SLF001
         centre, half = np.repeat(widths, sizes, axis=0).T
-        friction = chebyshev.chebval(t, drags.repeat(sizes, axis=1), tensor=False) * np.exp(centre + half * t)
+        friction = chebyshev.chebval(t, friction_columns.repeat(sizes, axis=1), tensor=False)
+        friction *= np.exp(centre + half * t)
         parts = np.split(friction, np.cumsum(sizes)[:-1])
         found.update((i, part.reshape(given[i].shape)) for i, part in zip(members, parts, strict=True))
     return [found[i] for i in range(len(curves))]

@@ -99,7 +99,7 @@ class GridContact:
         return self._made.loss(self.pressure) * self._rho / self.mean_pressure
 
     @cached_property
-    def surface(self) -> Array:
+    def surface_displacement(self) -> Array:
         """Displacement u/R about the mean line at X = 2πj/points [-], shape (points,)."""
         lifted: Array = self._made.whole(self.pressure) - self._made.lift * self.mean_pressure
         return lifted

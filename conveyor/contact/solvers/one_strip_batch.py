@@ -295,7 +295,7 @@ class HalfWidthSearch:
         self._order, self._miss, self._share = np.zeros(size), np.zeros(size), np.zeros(size)
         self.alive = np.asarray(good & rising)
         self.matrices = np.ones(size, dtype=int)
-        self.move(np.flatnonzero(self.alive))
+        self.move_to_loads(np.flatnonzero(self.alive))
         self.stray = good & ~self.alive
 
     @property
@@ -306,7 +306,7 @@ class HalfWidthSearch:
         values: Array = np.exp(self.middle + np.clip(away, -_FARTHEST_GUESS, _FARTHEST_GUESS))
         return values
 
-    def move(self, rows: Index) -> None:
+    def move_to_loads(self, rows: Index) -> None:
         """Move to the places that meet the load with the present offset; drop rows far outside."""
         self.place[rows] = y = self.group.target[rows] - self.offset[rows]
         ends = self.cubics.y[rows]
@@ -344,7 +344,7 @@ class HalfWidthSearch:
             share = share + back * (1.0 - share)
         self._share[rows], self._miss[rows], self._order[rows] = share, miss, n
         self.offset[rows] += np.where(good, miss / (1.0 - share), 0.0)
-        self.move(rows[good])
+        self.move_to_loads(rows[good])
         return _Evaluation(contact, lower, miss, tabled, y, known)
 
     def carried(self, rows: Index, found: _Evaluation) -> tuple[Contact, Array]:

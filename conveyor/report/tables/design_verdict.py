@@ -122,7 +122,7 @@ def _governing_rows(assessment: Assessment) -> Iterator[GoverningRow]:
 def _classical_power(a: CalculatedConveyor, power: Unit) -> GoverningRow:
     """Power by a given f, and its difference from the expected one by cause."""
     balance, classical = a.balance, a.balance.classical
-    here, there = balance.power.motor, balance.frame.shaft_power(classical.motor_force)
+    here, there = balance.power.motor, balance.layout.shaft_power(classical.motor_force)
     more = classical.total - balance.forces.total
     watts = (there - here) / more if more else 0.0
     main = {force.key for force in balance.along if force.kind == "main"}

@@ -16,7 +16,7 @@ from conveyor.studies.load_cases import Load
 
 def drive_table(a: CalculatedConveyor) -> Table:
     """Force, power, tensions and grip of every drive in every state."""
-    motor, states = a.balance.frame.motor, a.balance.settled.states
+    motor, states = a.balance.layout.motor, a.balance.equilibrium.states
     columns = (
         Column("drive", "text", "0.name"),
         Column("state", "text", "1"),
@@ -48,7 +48,7 @@ def drive_table(a: CalculatedConveyor) -> Table:
 
 def unsteady_words(a: CalculatedConveyor) -> str:
     """Words for the state at the start factor: the start, or the motors' braking of a belt that drives them."""
-    return "at start" if a.balance.settled.force >= 0.0 else "in braking by the motors"
+    return "at start" if a.balance.equilibrium.force >= 0.0 else "in braking by the motors"
 
 
 def start_stop_table(a: CalculatedConveyor) -> Table:
@@ -118,7 +118,7 @@ def brake_table(a: CalculatedConveyor) -> Table:
 
 def _uncontrolled_power(a: CalculatedConveyor, duty: DriveDuty) -> float | None:
     """Power of a drive where nothing but the belt couples the drives [W]; None where none differs."""
-    return None if duty.shared is None else a.balance.frame.motor(duty.shared, duty.drive.share)
+    return None if duty.shared is None else a.balance.layout.motor(duty.shared, duty.drive.share)
 
 
 def drive_parts(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:

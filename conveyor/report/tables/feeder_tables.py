@@ -67,7 +67,7 @@ def hopper_state_table(a: CalculatedConveyor) -> Table:
         Column("state", "text", "name"),
         Column("drive force", "force", "motion.force"),
         Column("torque at the drive shaft", "torque", torque),
-        Column("motor power", "power", lambda state: a.balance.frame.motor(state.motion.force)),
+        Column("motor power", "power", lambda state: a.balance.layout.motor(state.motion.force)),
         Column("largest tension", "force", "motion.largest"),
         Column("slack side", "force", lambda state: min(side.slack for side in state.motion.drives)),
         Column("safety of the belt", "safety", safety),

@@ -27,7 +27,7 @@ def tension_table(a: CalculatedConveyor) -> Table:
         Column("minimum tension (sag)", "force", "least_for_sag", key="least_for_sag"),
     )
     heading = "Tension round the loop, steady running, from the drive"
-    return Table("tensions", "Tensions", heading, columns, a.balance.points, printed=False)
+    return Table("tensions", "Tensions", heading, columns, a.balance.tension_points, printed=False)
 
 
 def profile_table(a: CalculatedConveyor) -> Table:
@@ -90,7 +90,7 @@ def section_ends(a: CalculatedConveyor) -> Table:
 
 
 def _motion_states(a: CalculatedConveyor) -> dict[str, MotionState]:
-    return a.balance.settled.states | a.motions.states
+    return a.balance.equilibrium.states | a.motions.states
 
 
 def _place_columns(a: CalculatedConveyor) -> tuple[Column, ...]:
@@ -125,7 +125,7 @@ def take_up_table(a: CalculatedConveyor, asks: tuple[TakeUpDuty, Message]) -> Ta
     """Take-up of all loads: setting, governing condition, mass or pull, travel."""
     duty, governed_by = asks
     mass, travel = duty.mass, duty.travel
-    mean = a.balance.settled.steady.mean(a.line.loop.length)
+    mean = a.balance.equilibrium.steady.mean(a.line.loop.length)
     winch = duty.unit.kind == "winch"
     screws = 0.5 * duty.unit.strands * duty.setting if duty.unit.kind == "screw" else None
     rows = [
@@ -171,15 +171,15 @@ def _travel_note(a: CalculatedConveyor, duty: TakeUpDuty) -> str:
 
 def take_up_conditions(a: CalculatedConveyor) -> Table:
     """Required take-up setting of every condition, the governing one first."""
-    settled = a.balance.settled
+    equilibrium = a.balance.equilibrium
     columns = (
         Column("condition", "text", "0"),
         Column("required setting", "force", "1", key="setting_it_asks_for"),
-        Column("margin", "force", lambda row: settled.setting - row[1]),
+        Column("margin", "force", lambda row: equilibrium.setting - row[1]),
     )
     heading, rows = (
         "Governing take-up conditions",
-        sorted(settled.conditions.items(), key=lambda item: -item[1]),
+        sorted(equilibrium.conditions.items(), key=lambda item: -item[1]),
     )
     return Table("tension_conditions", "Loop", heading, columns, tuple(rows), "tensions")
 

@@ -118,7 +118,7 @@ def classical_table(a: CalculatedConveyor, by_contact: CalculatedConveyor | None
     def row(label: str, kind: str, name: str, here: float) -> Figure:
         return Figure(label, kind, (here, *(getattr(made, name) for _, made in others)), key=name)
 
-    powers = (balance.power.motor, *(balance.frame.shaft_power(made.motor_force) for _, made in others))
+    powers = (balance.power.motor, *(balance.layout.shaft_power(made.motor_force) for _, made in others))
 
     rows = (
         row("f", "friction", "friction_factor", balance.friction_factor),

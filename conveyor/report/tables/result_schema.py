@@ -60,7 +60,7 @@ def _estimate_getter(name: str) -> Callable[[_Source], _Estimate | None]:
     def found(source: _Source) -> _Estimate | None:
         balance = source.own.balance
         made = getattr(balance, name)
-        return None if made is None else _Estimate(made, balance.frame.shaft_power(made.motor_force))
+        return None if made is None else _Estimate(made, balance.layout.shaft_power(made.motor_force))
 
     return found
 
@@ -137,8 +137,9 @@ _POWER: Final = JsonObject(
         ).of(lambda source: asdict(source.own.balance.tensions)),
         "drives": JsonList(
             lambda source: [
-                (side, source.own.balance.frame.motor(side.force, drive.share))
-                for drive, side in zip(source.own.line.drives, source.own.balance.settled.steady.drives, strict=True)
+                (side, balance.layout.motor(side.force, drive.share))
+                for balance in [source.own.balance]
+                for drive, side in zip(balance.line.drives, balance.equilibrium.steady.drives, strict=True)
             ],
             item=JsonObject(
                 lambda pair: pair,

@@ -70,7 +70,7 @@ def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
         Figure("cost per year", money, cost),
         Figure("classical f", "friction", classic.friction_factor),
         Figure("classical effective tension", "force", classic.total, us="Te"),
-        Figure("classical motor power", "power", balance.frame.shaft_power(classic.motor_force)),
+        Figure("classical motor power", "power", balance.layout.shaft_power(classic.motor_force)),
         Figure("maximum error estimate of the contacts", "error", error, "", "error_estimate",
                key="contact_error_estimate"),
         Figure("maximum energy error of the contacts", "error", energy_error, key="contact_energy_error"),

@@ -114,7 +114,7 @@ def best_design_table(sizing: CalculatedSizing, system: System) -> Table:
         Figure("motors", "text", _motor_sizes(best, system), "tile"),
         Figure("motor power", "power", found.balance.power.motor, "tile"),
         Figure("belt safety", "ratio", best.safety, "tile"),
-        Figure("take-up", "force", found.balance.settled.setting, "tile"),
+        Figure("take-up", "force", found.balance.equilibrium.setting, "tile"),
         Figure("energy cost a year", money, float(best.costs.yearly["energy"]), "tile"),
         Figure("cost a year", money, best.year, "tile"),
     )
@@ -153,7 +153,7 @@ def design_table(sizing: CalculatedSizing) -> Table:
         Column("motors", "power", lambda row: sum(row[1].chosen.motors), json="motors_kW"),
         Column("motor power", "power", "1.found.balance.power.motor", json="motor_power_kW"),
         Column("belt safety", "ratio", "1.safety", None, json="belt_safety"),
-        Column("take-up", "force", "1.found.balance.settled.setting", None, json="take_up_N"),
+        Column("take-up", "force", "1.found.balance.equilibrium.setting", None, json="take_up_N"),
         Column("L10 of a roll set", "duration", "1.roll_life", None, json="roll_life_h"),
         Column("capital", money, "1.costs.whole_capital", None, json="capital"),
         Column("energy cost a year", money, "1.costs.yearly.energy", None, json="energy_cost_per_year"),

@@ -70,7 +70,7 @@ _STATE: Final = JsonObject(
         ),
         "effective_tension_N": number_key("balance.forces.total"),
         "tensions_N": free_object(lambda state: asdict(state.balance.tensions), "number", "string"),
-        "take_up_asked_N": number_key("balance.settled.needed"),
+        "take_up_asked_N": number_key("balance.equilibrium.needed"),
         "worst_for": text_list("worst_for"),
     },
 )

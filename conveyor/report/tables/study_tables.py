@@ -89,8 +89,8 @@ def load_states(study: CalculatedStates) -> Table:
         Column("slack side tension", "force", "balance.tensions.slack", page=None),
         Column("maximum tension", "force", "balance.tensions.largest", key="largest_tension"),
         Column("minimum tension, steady", "force", "balance.tensions.smallest", key="smallest_tension"),
-        Column("required take-up tension", "force", "balance.settled.needed", key="take_up_tension_asked_for"),
-        Column("governed by", "text", "balance.settled.governing", page=None),
+        Column("required take-up tension", "force", "balance.equilibrium.needed", key="take_up_tension_asked_for"),
+        Column("governed by", "text", "balance.equilibrium.governing", page=None),
     )
     note = (
         "All with the take-up at its setting. Inclines only and declines only leave level sections empty; not listed "
@@ -156,9 +156,9 @@ def case_table(study: CalculatedCases) -> Table:
                key="largest_tension"),
         Column("minimum tension, steady", "force", "found.balance.tensions.smallest",
                json="smallest tension", key="smallest_tension"),
-        Column("required take-up tension", "force", "found.balance.settled.needed",
+        Column("required take-up tension", "force", "found.balance.equilibrium.needed",
                json="take-up tension asked for", key="take_up_tension_asked_for"),
-        Column("governed by", "text", "found.balance.settled.governing", page=None),
+        Column("governed by", "text", "found.balance.equilibrium.governing", page=None),
         Column("maximum roll load", "force", "heaviest_roll.0", page=None,
                json="largest roll load", key="largest_roll_load"),
         Column("at roll", "text", "heaviest_roll.1", page=None),
@@ -324,7 +324,7 @@ def flooded_belt(study: FloodedBelt) -> Table:
             Figure("resistance after standstill, at most", "force", found.motions.start.breakaway),
             Figure("maximum tension, all states", "force", balance.tensions.largest),
             Figure("safety, steady", "ratio", duty.safety_steady),
-            Figure("required take-up tension", "force", balance.settled.needed),
+            Figure("required take-up tension", "force", balance.equilibrium.needed),
         ]
     return figure_table("flooded", "Load cases", heading, rows, page=_STATES, note=note, prefix="flooded_")
 

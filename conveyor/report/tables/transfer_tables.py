@@ -47,7 +47,7 @@ def loading_point_table(a: CalculatedConveyor) -> Table:
         ("drop height", "spacing", "point.drop_height"),
         ("resting on a set", "force", "resting"),
         ("impact of the stream", "force", "stream"),
-        ("impact of the lump", "force", "lump"),
+        ("impact of the lump", "force", "lump_force"),
         ("load of a set", "force", "load"),
         ("a set bears", "force", "point.idler_rating"),
         ("impact bed for the lump", "text", "bed"),
