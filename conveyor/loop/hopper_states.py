@@ -18,7 +18,7 @@ class HopperState:
     Attributes
     ----------
     name : str
-        "filled, after standing", "flow" or "run-out", the hopper empty and the belt still full.
+        "filled, after standing", "in flow" or "run-out", the hopper empty and the belt still full.
     balance : Balance
         The loop in steady running; filled hoppers are those of a start, their bulk in flow soon after.
     motion : MotionState
@@ -55,7 +55,7 @@ def hopper_states(balance: Balance, motions: StartAndStop) -> tuple[HopperState,
     run_out = _without_hopper_loads(balance)
     made = (
         ("filled, after standing", balance, filled),
-        ("flow", balance, _design_motion(balance)),
+        ("in flow", balance, _design_motion(balance)),
         ("run-out", run_out, _design_motion(run_out)),
     )
     return tuple(HopperState(name, loop, state, _start_time(loop, state, motions)) for name, loop, state in made)

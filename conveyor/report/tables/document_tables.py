@@ -19,7 +19,7 @@ from conveyor.spec import fingerprint
 from conveyor.units import Quantity, System
 from conveyor.units.presentation import display_unit, format_figure
 
-_PACKAGES: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
+_PACKAGES: Final = ("numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
 def report_head(
@@ -118,9 +118,10 @@ def provenance_table(spec: str, sheet: str = "Checks and notes") -> Table:
     facts = {
         "spec SHA-256": spec,
         "date": date.today().isoformat(),
+        "program conveyor": package_version("conveyor"),
         "python": platform.python_version(),
         **{name: package_version(name) for name in _PACKAGES},
     }
-    columns = (Column("made by", "text", "0", verbatim=True), Column("version", "text", "1", verbatim=True))
+    columns = (Column("made by", "text", "0"), Column("version", "text", "1", verbatim=True))
     page = (PagePlacement("provenance", "What made these figures", printed=False),)
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
