@@ -143,7 +143,7 @@ def test_longer_sentences_go_first_and_parts_are_translated():
         ("top", "top"),
         ("thickness of the top cover", "Dicke der Deckplatte oben"),
         ("required top cover", "erforderliche Deckplatte oben"),
-        ("travel, load", "Weg, Last"),
+        ("travel, load", "Spannweg, Last"),
         ("load, carry, start", "load, Obertrum, Anfahren"),
         ("full (worst for drive force)", "voll (ungünstigster für Antriebskraft)"),
         ("diameter, head pulley", "Durchmesser, Trommel head"),
