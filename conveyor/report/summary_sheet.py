@@ -240,7 +240,7 @@ def _check_rows(page: SheetWriter, row: int, checks_sheet: str) -> int:
         _style_check_row(sheet, i, VERDICT_STYLES[check.verdict])
     if len(shown) < len(checks):
         i += 1
-        words = f"of every criterion the least margin; all {len(checks)} checks: see {CHECKS_AND_NOTES}"
+        words = f"smallest margin of each criterion; all {len(checks)} checks: see {CHECKS_AND_NOTES}"
         page.write(i, 1, words, GREY)
     kinds = ("warning", "assumption")
     said = ", ".join(f"{len(page.contents.lines(kind))} {kind}s" for kind in kinds)
