@@ -144,7 +144,7 @@ TABLES: Final[dict[str, Maker]] = {
     "inputs_given": partial(_grouped_inputs, defaults=False),
     "inputs_default": partial(_grouped_inputs, defaults=True),
     "defaults": lambda made: result_tables.default_table(made.assessment.power_range, made.assessment.system),
-    "inputs": lambda made: document_tables.input_table(inputs.reported_rows(made.own.conveyor)),
+    "inputs": lambda made: document_tables.input_table(inputs.input_rows(made.own.conveyor)),
     "sections": _own_table(resistance_tables.section_table),
     "resistances": _own_table(resistance_tables.resistance_table),
     "classical": lambda made: resistance_tables.classical_table(made.own, made.assessment.by_contact),

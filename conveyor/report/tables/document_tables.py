@@ -106,10 +106,10 @@ def input_table(entries: tuple[InputRow, ...]) -> Table:
 
 
 def grouped_input_table(entries: Sequence[InputRow], system: System, *, defaults: bool) -> Table:
-    """Inputs grouped by part: those given, or those left to defaults."""
+    """Inputs grouped by part, given or left to defaults; without the language, which a command may change."""
     columns = (Column("part", "text", "0", verbatim=True), Column("values", "text", "1", verbatim=True))
     key, heading = ("inputs_default", "Inputs left to defaults") if defaults else ("inputs_given", "Inputs given")
-    chosen = [row for row in entries if (row[-1] == "default") is defaults]
+    chosen = [row for row in entries if (row[-1] == "default") is defaults and row[0] != "report.language"]
     return Table(key, "Given", heading, columns, group_inputs(chosen, system, alike=defaults), "inputs")
 
 

@@ -29,11 +29,6 @@ def input_rows(conveyor: Conveyor) -> tuple[InputRow, ...]:
     return tuple(row for row in _value_rows((), conveyor, "spec") if row[0] != "conveyor")
 
 
-def reported_rows(conveyor: Conveyor) -> tuple[InputRow, ...]:
-    """Rows that a report shows: not its language, which its reader sees and a command may change."""
-    return tuple(row for row in input_rows(conveyor) if row[0] != "report.language")
-
-
 def _value_rows(place: tuple[str | int, ...], value: Any, origin: Origin, entry: Any = None) -> Iterator[InputRow]:
     """Rows of a value; `entry` is the value of the library entry that is named, if any."""
     field = field_path(place)
