@@ -136,7 +136,7 @@ class Outputs:
 
         if self._language is not None:
             contents = contents.in_language(self._language)
-        page = partial(html.build_page, contents) if page is None else partial(page, words=contents.translator)
+        page = partial(html.build_page, contents) if page is None else partial(page, words=contents.make_translator())
         for done, path in enumerate(self._reports):
             if told is not None:
                 told("writing", done, len(self._reports))

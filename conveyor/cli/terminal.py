@@ -441,7 +441,8 @@ _OF_FLOODED_BELT: Final = {
 def _flooded_text(table: Table, system: System) -> str:
     """Sentence on the flooded belt, or why it has no answer; the reports have every figure."""
     shown = [row for row in table.rows if row.label in _OF_FLOODED_BELT]
-    said = ", ".join(f"{row.called(system)} {row.unit(system).said(row.value)}" for row in shown)
+    large = ((row, display_unit(row.kind, system, large=True)) for row in shown)
+    said = ", ".join(f"{row.called(system)} {unit.said(row.value)}" for row, unit in large)
     return f"flooded belt: {said}. {table.note if len(shown) == 1 else 'Nothing is checked by it.'}"
 
 

@@ -41,6 +41,10 @@ class GappedSentence:
     named: tuple[bool, ...]
     bounded: tuple[bool, ...]
 
+    def before(self, found: re.Match[str]) -> str:
+        """What fills a gap that the sentence begins with; empty where it begins with a word of its own."""
+        return found[1] if found.start(1) == 0 else ""
+
     @classmethod
     def of(cls, english: str, translation: str) -> Self:
         """Return the sentence of a text and its translation."""

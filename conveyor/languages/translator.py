@@ -27,6 +27,7 @@ _SAME: Final = re.compile(
     r"|(?:[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\])?)+)"  # a path of a field
     r"|(?:[A-Za-z0-9]+(?:_[A-Za-z0-9]+)+|[0-9a-f]{12,}|\"[^\"]*\")"  # a key, a fingerprint, a name in quotes
     r"|(?:[A-Z]{1,4}-?\d[\w/.-]*|\S+\.[a-z]{2,4}(?:[/:]\S*)?)"  # a part or belt of a series, a file or site
+    r"|(?:python|numpy|scipy|pandas|pint|pydantic|openpyxl|matplotlib)"  # a program
     r"|(?:cp\d+|tau|dyn/cm\^2|ksi|min)"  # an encoding, a column and units of laboratory files
     r"|(?:[A-Z]'{0,2}|[a-zA-Z](?:_\w+)?|T(?:[12e]|max|min)|tan δ|\(C-1\) F_H|\|E\*\|/b_T"
     r"|T(?:x|yc|yr|ym|m|p|am|sb|bc|pl|ac))"  # a symbol
@@ -77,42 +78,20 @@ class Translator:
 
     def __post_init__(self) -> None:
         self._known: dict[str, tuple[str, tuple[str, ...]]] = {}
-        self._made: set[str] = set()
-        self._kept: set[str] = set()
 
     def text(self, words: str) -> str:
-        """Translate a text; what is translated already, and what has no translation, stays as it is."""
+        """Translate an English text; what has no translation stays as it is."""
         inner = words.strip()
-        if not inner or inner in self._kept or self._is_made(inner):
+        if not inner:
             return words
         translated, left = self._resolve(inner)
         self.missing.update(dict.fromkeys(left))
-        self._made.add(translated)
         return words.replace(inner, translated, 1)
 
     def heading(self, words: str) -> str:
         """Translate a heading or the name of a column, which are the report's own even where a name is spelled so."""
-        if words not in self.catalogue.texts:
-            return self.text(words)
-        self._made.add(self.catalogue.texts[words])
-        return self.catalogue.texts[words]
-
-    def _is_made(self, words: str) -> bool:
-        """True for a translation, alone or with a unit."""
-        if words in self._made:
-            return True
-        label = _WITH_UNIT.fullmatch(words)
-        return label is not None and label[1] in self._made
-
-    def keep(self, words: str) -> str:
-        """Leave a text as it is, here and wherever it comes again as a whole."""
-        self._kept.add(words.strip())
-        return words
-
-    def numbers_only(self, words: str) -> str:
-        """Write a number as the language has it; other text stays as it is."""
-        known = words in self._kept or words in self._made or not _figure_pattern().fullmatch(words.strip())
-        return words if known else self.catalogue.numbers.localise(words)
+        known = self.catalogue.texts.get(words)
+        return self.text(words) if known is None else known
 
     def _resolve(self, words: str) -> tuple[str, tuple[str, ...]]:
         """Translation of a text, and what of it has none."""
@@ -138,7 +117,7 @@ class Translator:
 
     def _whole(self, words: str) -> str | None:
         """Translation of a text known whole, or the text where it is the same in all languages; None for others."""
-        if not words.strip() or words in self.names or self._is_made(words):
+        if not words.strip() or words in self.names:
             return words
         if any(one.fullmatch(words) for one in (_figure_pattern(), _SYMBOL_FIGURE)) or not _LATIN.search(words):
             return self.catalogue.numbers.localise(words)
@@ -154,7 +133,7 @@ class Translator:
         for sentence in self.catalogue.sentences:
             if sentence.piece in words and (found := sentence.pattern.fullmatch(words)):
                 gaps = zip(found.groups(), sentence.bounded, strict=True)
-                if any(_has_comma(part) for part, bounded in gaps if not bounded):
+                if any(_has_comma(part) for part, bounded in gaps if not bounded) or "; " in sentence.before(found):
                     continue  # the sentence is one of the parts
                 filled = zip(found.groups(), sentence.quoted, sentence.named, strict=True)
                 parts = [(part, ()) if quoted else self._filling(part, named) for part, quoted, named in filled]

@@ -17,7 +17,7 @@ class HopperState:
     Attributes
     ----------
     name : str
-        "filled, after standing", "flow" or "run-out", the hopper empty and the belt still full.
+        "filled, after standing", "in flow" or "run-out", the hopper empty and the belt still full.
     motion : MotionState
         Tensions with the friction to design for, at constant speed or when the belt breaks the bulk away.
     start_time : float or None
@@ -45,7 +45,7 @@ def hopper_states(balance: Balance, motions: StartAndStop) -> tuple[HopperState,
         return ()
     made = (
         ("filled, after standing", states[FILLED]),
-        ("flow", states.get(DESIGN, balance.equilibrium.steady)),
+        ("in flow", states.get(DESIGN, balance.equilibrium.steady)),
         ("run-out", states[RUN_OUT]),
     )
     speed = balance.line.speed

@@ -7,12 +7,12 @@ from typing import Annotated, Any, Final, get_args, get_origin
 
 from conveyor.models.base import Model
 from conveyor.models.compound import RubberCompound
-from conveyor.models.rubber_data import FitStatistics, StrainDependence
+from conveyor.models.rubber_data import FitStatistics, Source, StrainDependence
 from conveyor.units.sentences import degree_signs
 
 _NOTES: Final[frozenset[tuple[type[Model], str]]] = frozenset({
     (RubberCompound, "description"), (RubberCompound, "missing"), (StrainDependence, "reference_note"),
-    (FitStatistics, "method"),
+    (FitStatistics, "method"), (RubberCompound, "strain"), (Source, "origin"),
 })  # fmt: skip
 """Fields of a compound's file that say something of it in words."""
 

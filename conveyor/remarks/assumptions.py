@@ -40,7 +40,8 @@ def analysis_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         _rubber_assumption(conveyor),
         f"Contact is plane strain, frictionless, steady, on cylinders in line: {support}.",
         f"Contacts are solved to a relative tolerance of {conveyor.calculation.rtol:g} of the indentation resistance "
-        "(calculation.rtol); at 1e-4 half widths are good to 0.1 %. Peak pressures stand with their own error.",
+        "(calculation.rtol); at 1e-4 half widths are good to 0.1 %. Peak pressures have an error estimate of their "
+        "own.",
         *roll_assumptions(conveyor),
         "The bearings of driven pulleys (at each drive's place the most wrapped ones) are included in the drive's "
         "efficiency; tension changes the load of the rolls on curves only.",
@@ -206,7 +207,7 @@ def _alignment_assumption(conveyor: Conveyor) -> str:
         for idlers in (conveyor.idlers.carry, conveyor.idlers.return_)
     )
     return (
-        f"The axes of the idler sets are askew at random, carry {carry:.2g} deg, return {back:.2g} deg (standard "
+        f"The axes of the idler sets are randomly misaligned, carry {carry:.2g} deg, return {back:.2g} deg (standard "
         f"deviation); belt on rolls has a friction of at most {ROLL_ON_BELT_FRICTION.value:g} (general knowledge)."
     )
 

@@ -303,8 +303,8 @@ def _drive_warnings(result: CalculatedConveyor) -> Iterator[Message]:
         else:
             yield message(
                 f'rotating masses of "{escape_braces(each.name)}" not given (drive.reduced_mass, inertia): {{}} at '
-                f"the belt "
-                f"assumed, {DRIVE_INERTIA.value:g} s of its rated power ({DRIVE_INERTIA.source}; general knowledge)",
+                f"the belt assumed, kinetic energy of {DRIVE_INERTIA.value:g} s at rated power "
+                f"({DRIVE_INERTIA.source}; general knowledge)",
                 (each.reduced_mass, "mass"),
             )
     if balance.power.mains < 0.0 and lacks_feed_in_price(result.conveyor.operation):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from copy import copy
 from dataclasses import dataclass
 from datetime import date
@@ -110,6 +110,7 @@ def write_table(
     *,
     widest: int = _WIDEST,
     wider: Mapping[str, int] = _ALL_ALIKE,
+    words: Callable[[str], str] = str,
 ) -> int:
     """Write a table with its header at (row, column); returns its last row.
 
@@ -121,11 +122,14 @@ def write_table(
         Width at which a column of long text stops growing [characters].
     wider : mapping of str to int
         The same of single columns, by their keys.
+    words : callable
+        Translates verdicts and what stands for yes, no and infinity; the texts of the table are written as they are.
     """
     names = [shown.head(each, system) for each in shown.columns]
     for j, (each, name) in enumerate(zip(shown.columns, names, strict=True), start=column):
         cells = shown.names(system) if each.kind == FIGURE_NAME else shown.cells(each, system)
-        values = [_cell_value(value, NEVER if each.kind == "years" else INFINITY_SIGN) for value in cells]
+        infinite = words(NEVER) if each.kind == "years" else INFINITY_SIGN
+        values = [_cell_value(value, infinite) for value in cells]
         number = each.kind == ROW_KIND or (
             each.kind != FIGURE_NAME and display_unit(each.kind, system).label is not None
         )
@@ -134,9 +138,10 @@ def write_table(
         at = row + 1, j
         patterns = [shown.unit(each, item, system).pattern for item in shown.rows]
         most = wider.get(each.key, widest)
+        verdicts = values if each.kind == "verdict" else []
+        values = [words(value) for value in verdicts] or values
         longest = _text_column(sheet, at, values, most) if text else _number_column(sheet, at, values, patterns)
-        if each.kind == "verdict":
-            _colour_verdicts(sheet, at, values)
+        _colour_verdicts(sheet, at, verdicts)
         if each.asked:
             _mark_inputs(sheet, at, len(values))
         letter = get_column_letter(j)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any, Literal
+from collections.abc import Callable, Collection, Sequence
+from typing import Any, Literal, TypeAlias
 
 from openpyxl.chart import BarChart, LineChart, Reference, ScatterChart, Series
 from openpyxl.chart.axis import ChartLines
@@ -19,7 +19,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report.cells import ACCENT, cell_text
 from conveyor.report.sheet_writer import TablePlace
-from conveyor.report.table_model import FAILS, Table
+from conveyor.report.table_model import Table
 from conveyor.units import System
 from conveyor.units.presentation import display_unit, label_for_people
 
@@ -36,6 +36,10 @@ _AXIS_ROOM, _LEGEND_ROOM, _FRAME_ROOM = 2.4, 6.4, 3.2
 _SYMBOLS = ("triangle", "circle", "square")
 _GRID = "D9D9D9"
 _LINE_WIDTH = 22_000  # width of a series' line [EMU]: 1.7 pt
+
+
+Said: TypeAlias = Callable[[str], str]
+"""Returns an English text in the language of the report."""
 
 
 def _chart_title(words: str, *, size: int) -> Title:
@@ -110,10 +114,10 @@ def force_axis(axis: Any, name: str, system: System) -> None:
     axis.number_format = "#,##0" if large.size == display_unit("force", system).size else "#,##0,"
 
 
-def difference_chart(sheet: Worksheet, title: str, place: TablePlace, last: int) -> LineChart:
+def difference_chart(sheet: Worksheet, title: str, place: TablePlace, last: int, *, said: Said = str) -> LineChart:
     """Difference of every compound to the base, with its band where known."""
     chart = LineChart()
-    _style_chart(chart, title, "", "difference")
+    _style_chart(chart, said(title), "", said("difference"))
     for key, symbol, size in (
         ("motor_power_against_base", "circle", 9),
         ("difference_low", "dash", 7),
@@ -135,7 +139,9 @@ def difference_chart(sheet: Worksheet, title: str, place: TablePlace, last: int)
     return chart
 
 
-def power_over_temperature(sheet: Worksheet, place: TablePlace, shown: Table, system: System) -> ScatterChart:
+def power_over_temperature(
+    sheet: Worksheet, place: TablePlace, shown: Table, system: System, *, said: Said = str
+) -> ScatterChart:
     """Motor power of compounds (all columns but the first) over temperature; the speed is the table's note.
 
     The power axis begins below the least, at a round figure: differences between compounds are what is looked for.
@@ -145,10 +151,10 @@ def power_over_temperature(sheet: Worksheet, place: TablePlace, shown: Table, sy
         place,
         "temperature",
         place.keys[1:],
-        title=f"Motor power at {shown.note}",
+        title=said(f"Motor power at {shown.note}"),
         words=(
-            f"belt {_column_header(sheet, place.header, 1)}",
-            label_for_people("motor power", "power", system),
+            said(f"belt {shown.head(shown.columns[0], system)}"),
+            label_for_people(said("motor power"), "power", system),
         ),
     )
     chart.x_axis.number_format, chart.y_axis.number_format = "0", "#,##0"
@@ -162,33 +168,36 @@ def power_over_temperature(sheet: Worksheet, place: TablePlace, shown: Table, sy
     return chart
 
 
-def tension_chart(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart:
-    """Tension round the loop in every state, and the minimum for sag; states that fail in red."""
+def tension_chart(
+    sheet: Worksheet, place: TablePlace, system: System, *, failing: Collection[str] = (), said: Said = str
+) -> ScatterChart:
+    """Tension round the loop in every state, and the minimum for sag; states that fail, by their keys, in red."""
     states = [key for key in place.keys[1:] if key != "distance_from_head"]
-    title = "Tension round the loop, from the head along the return strand and back"
+    title = said("Tension round the loop, from the head along the return strand and back")
     words = (
         _column_header(sheet, place.header, place.column("distance_from_head")),
-        label_for_people("tension", "force", system),
+        label_for_people(said("tension"), "force", system),
     )
     chart = _column_curves(sheet, place, "distance_from_head", states, title=title, words=words)
     for series, key in zip(chart.series, states, strict=True):
-        if FAILS in _column_header(sheet, place.header, place.column(key)):
+        if key in failing:
             line = series.graphicalProperties.line
             line.solidFill, line.dashStyle, line.width = _RED, "solid", 2 * _LINE_WIDTH
     chart.x_axis.number_format = "#,##0"
-    force_axis(chart.y_axis, "tension", system)
+    force_axis(chart.y_axis, said("tension"), system)
     chart.x_axis.tickLblPos = "low"
     chart.x_axis.scaling.min = 0.0
     resize_chart(chart, _WIDE)
     return chart
 
 
-def profile_chart(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart:
+def profile_chart(sheet: Worksheet, place: TablePlace, system: System, *, said: Said = str) -> ScatterChart:
     """Profile of the route, with feeding points, drives and take-up."""
-    words = tuple(label_for_people(name, "length", system) for name in ("horizontal distance from the tail", "height"))
+    names = "horizontal distance from the tail", "height"
+    words = tuple(label_for_people(said(name), "length", system) for name in names)
     first = place.keys.index("height")
     what = place.keys[first:]
-    chart = _column_curves(sheet, place, "horizontal", what, title="Profile of the route", words=words)
+    chart = _column_curves(sheet, place, "horizontal", what, title=said("Profile of the route"), words=words)
     for series, symbol in zip(chart.series[1:], _SYMBOLS, strict=False):
         ink = series.graphicalProperties.line.solidFill
         series.graphicalProperties.line.noFill = True
@@ -201,16 +210,18 @@ def profile_chart(sheet: Worksheet, place: TablePlace, system: System) -> Scatte
     return chart
 
 
-def trajectory_chart(sheet: Worksheet, place: TablePlace, outline: TablePlace, system: System) -> ScatterChart:
+def trajectory_chart(
+    sheet: Worksheet, place: TablePlace, outline: TablePlace, system: System, *, said: Said = str
+) -> ScatterChart:
     """Discharge trajectory and belt at the head pulley, both axes to one scale."""
-    words = [label_for_people(name, "spacing", system) for name in ("forward of the axis", "over the axis")]
-    chart = _scatter_chart("Discharge over the head pulley, to scale", *words)
+    words = [label_for_people(said(name), "spacing", system) for name in ("forward of the axis", "over the axis")]
+    chart = _scatter_chart(said("Discharge over the head pulley, to scale"), *words)
     drawn = [(outline, "belt", "belt"), *((place, name, name.replace("_", " ")) for name in _STREAM)]
     spans: list[list[float]] = [[], []]
     for at, name, title in drawn:
         columns = [at.column(f"{name}_{axis}") for axis in ("forward", "up")]
         across, up = (Reference(sheet, min_col=column, min_row=at.header + 1, max_row=at.last) for column in columns)
-        _add_line(chart, up, across, title.replace("booth", "Booth"))
+        _add_line(chart, up, across, said(title.replace("booth", "Booth")))
         for span, column in zip(spans, columns, strict=True):
             cells = (sheet.cell(row, column).value for row in range(at.header + 1, at.last + 1))
             span += [float(value) for value in cells if isinstance(value, int | float)]
@@ -233,13 +244,14 @@ def trajectory_chart(sheet: Worksheet, place: TablePlace, outline: TablePlace, s
     return chart
 
 
-def moduli_chart(sheet: Worksheet, name: str, place: TablePlace, system: System) -> ScatterChart:
+def moduli_chart(sheet: Worksheet, name: str, place: TablePlace, system: System, *, said: Said = str) -> ScatterChart:
     """E' and E'' against frequency, both axes logarithmic."""
     words = (
-        label_for_people("frequency", "frequency", system),
-        label_for_people("modulus", "pressure", system),
+        label_for_people(said("frequency"), "frequency", system),
+        label_for_people(said("modulus"), "pressure", system),
     )
-    chart = _column_curves(sheet, place, "frequency", ("storage", "loss"), title=f"Moduli of {name}", words=words)
+    title = said(f"Moduli of {name}")
+    chart = _column_curves(sheet, place, "frequency", ("storage", "loss"), title=title, words=words)
     chart.x_axis.scaling.logBase = chart.y_axis.scaling.logBase = 10
     chart.x_axis.number_format, chart.y_axis.number_format = "0E+0", "General"
     chart.x_axis.tickLblPos = chart.y_axis.tickLblPos = "low"

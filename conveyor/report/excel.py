@@ -26,7 +26,6 @@ from conveyor.report.sheet_paper import set_up_print
 from conveyor.report.sheet_writer import MOST_ROWS, SheetWriter, TablePlace, long_table_file
 from conveyor.report.table_files import csv_bytes
 from conveyor.report.table_model import CHECKS_AND_NOTES, Contents
-from conveyor.report.translated_workbook import translate_contents, translate_sheets
 
 SUMMARY_SHEET: Final = "Summary"
 """The first sheet of the workbook of a conveyor."""
@@ -148,10 +147,8 @@ def build_workbook(
 ) -> Workbook:
     """Build the workbook of a report; `stem` names further files, `live` receives the values of its formulas."""
     about, fills = contents.document, _LAYOUTS.get(contents.layout, {})
-    words = contents.translator
-    if words is not None:
-        contents = translate_contents(contents, words)
-    sheet_name = str if words is None else words.heading
+    translator = contents.make_translator()
+    sheet_name = str if translator is None else translator.heading
     book = Workbook()
     book.remove(book.worksheets[0])
     book.properties.title = cell_text(about.title)
@@ -164,15 +161,14 @@ def build_workbook(
     for title in dict.fromkeys((*fills, *contents.sheets)):
         if title in contents.sheets or title not in _OPTIONAL_SHEETS:
             values = {} if live is None else live
-            page = SheetWriter(book.create_sheet(sheet_name(title)), contents, stem, placed, values, name=title)
+            sheet = book.create_sheet(sheet_name(title))
+            page = SheetWriter(sheet, contents, stem, placed, values, name=title, translator=translator)
             fills.get(title, sheets.stacked_sheet)(page)
             starts, blocks = page.print_only()
             set_up_print(page.sheet, header, paper=about.paper, starts=starts, blocks=blocks)
     if front:  # its charts refer to tables of the other sheets
-        summary_sheet.write_summary(SheetWriter(first, contents, stem), placed)
+        summary_sheet.write_summary(SheetWriter(first, contents, stem, translator=translator), placed)
         set_up_print(first, header, paper=about.paper, fitted=True)
-    if words is not None:
-        translate_sheets(book, words)
     return book
 
 

@@ -62,15 +62,16 @@ def write_page(contents: Contents, path: Path) -> Path:
 
 def build_page(contents: Contents, *, on_paper: bool = False) -> Html:
     """Build the page of a report, for a screen or with its figures drawn for paper."""
-    about = contents.document
+    about, words = contents.document, contents.make_translator()
     made = f"conveyor {package_version('conveyor')}, {date.today().isoformat()}"
     if about.fingerprint:
         made += f", spec SHA-256 {about.fingerprint[:16]}"
     document = fact_list(about.said.items(), "facts document") if about.said else Html()
-    parts = [part for named in contents.page if (part := _page_part(contents, *named, on_paper=on_paper)).content]
+    made_parts = (_page_part(contents, *named, words, on_paper=on_paper) for named in contents.page)
+    parts = [part for part in made_parts if part.content]
     kind, top = f"{about.kind}, {date.today().isoformat()}", join_html([document, _page_top(contents)])
     page = page_html(about.title, kind, top, parts, made, paper=about.paper)
-    return page if contents.translator is None else translate_page(page, contents.translator)
+    return page if words is None else translate_page(page, words)
 
 
 def _page_top(contents: Contents) -> Html:
@@ -82,15 +83,15 @@ def _page_top(contents: Contents) -> Html:
     return join_html([fact_list(said), *(element("p", line) for line in contents.lines("note of the spec"))])
 
 
-def _page_part(contents: Contents, name: str, heading: str, *, on_paper: bool) -> PagePart:
+def _page_part(contents: Contents, name: str, heading: str, words: Translator | None, *, on_paper: bool) -> PagePart:
     """Part of the page: its own content, drawings, tables with their notes."""
     content = [_PART_CONTENT[name](contents)] if name in _PART_CONTENT else []
-    content += _page_drawings(contents, name, on_paper=on_paper)
+    content += _page_drawings(contents, name, words, on_paper=on_paper)
     for shown in contents.parts:
         places = [place for place in shown.places if place.part == name]
         for place in places:
             if place == shown.places[0] and shown.key != name:
-                content += _page_drawings(contents, shown.key, on_paper=on_paper)
+                content += _page_drawings(contents, shown.key, words, on_paper=on_paper)
             made = _page_table(shown.on_page(place), place.caption, contents.system)
             content.append(made if place.printed else fold_away(place.caption, made))
         if any(place.printed for place in places) and shown.note and shown.key != "defaults":
@@ -107,9 +108,8 @@ def _page_table(shown: Table, caption: str, system: System) -> Html:
     return figure_list(shown, caption, system) if shown.figures else table_html(shown, caption, system)
 
 
-def _page_drawings(contents: Contents, above: str, *, on_paper: bool) -> list[Html]:
+def _page_drawings(contents: Contents, above: str, words: Translator | None, *, on_paper: bool) -> list[Html]:
     """Drawings above a table or part."""
-    words = contents.translator
     return [_page_drawing(one, words, on_paper=on_paper) for one in contents.drawings if one.above == above]
 
 

@@ -9,15 +9,17 @@ from itertools import pairwise
 from typing import Any, Final
 
 from openpyxl.cell.cell import Cell, MergedCell
-from openpyxl.styles import Alignment
+from openpyxl.styles import Alignment, Font
 from openpyxl.utils import absolute_coordinate, get_column_letter, quote_sheetname
 from openpyxl.utils.cell import coordinate_to_tuple
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
+from conveyor.languages.translator import Translator
 from conveyor.report.cells import GREY, HEADING, line_count, mark_input, write_table, write_totals, write_value
 from conveyor.report.sheet_paper import CHART_ROWS, TEXT_WIDTH, columns_of_text, columns_width
 from conveyor.report.table_model import Contents, Figure, Table
+from conveyor.report.translated_workbook import translate_table
 
 MOST_ROWS: Final = 10_000
 """Maximum rows of a table on a sheet: longer ones take seconds to write and to open."""
@@ -93,6 +95,8 @@ class SheetWriter:
         Values of formulas, by sheet and cell.
     name : str
         Its name in English.
+    translator : Translator or None
+        Of the report's language; None in English.
     """
 
     sheet: Worksheet
@@ -101,22 +105,41 @@ class SheetWriter:
     placed: dict[str, tuple[Worksheet, TablePlace]] = field(default_factory=dict)
     live: dict[tuple[str, str], float | str] = field(default_factory=dict)
     name: str = ""
+    translator: Translator | None = None
+
+    def said(self, words: str) -> str:
+        """Return an English text of the report in its language."""
+        return words if self.translator is None else self.translator.text(words)
+
+    def headed(self, words: str) -> str:
+        """Return a heading or the name of a figure in the language, also where a name is spelled so."""
+        return words if self.translator is None else self.translator.heading(words)
+
+    def table(self, key: str) -> Table:
+        """Return a table as the sheets have it, in the language."""
+        part = self.contents[key].on_sheet()
+        return part if self.translator is None else translate_table(part, self.translator)
+
+    def write(self, row: int, column: int, words: str, font: Font | None = None) -> None:
+        """Write an English text of the report in its language."""
+        write_value(self.sheet.cell(row, column), self.said(words), font)
 
     def place(self, key: str, row: int, column: int = 1, *, widest: int = _NAME_CHARACTERS, **wider: int) -> TablePlace:
         """Write a table, its heading at (row, column) and its header below; define names for it and its figures.
 
         Text wraps at `widest` [characters], that of single columns at those in `wider`.
         """
-        part = self.contents[key].on_sheet()
+        part = self.table(key)
         write_value(self.sheet.cell(row, column), part.heading, HEADING)
         top = row + 1
         shown, whole = part, len(part.rows) <= MOST_ROWS
         if not whole:
             where = long_table_file(self.stem, part)
             words = f"{len(part.rows):,} rows, the first {SHOWN_ROWS} here; all of them: {where}"
-            write_value(self.sheet.cell(row, column + 2), words, GREY)
+            self.write(row, column + 2, words, GREY)
             shown = replace(part, rows=part.rows[:SHOWN_ROWS])
-        last = write_table(self.sheet, shown, self.contents.system, top, column, widest=widest, wider=wider)
+        system = self.contents.system
+        last = write_table(self.sheet, shown, system, top, column, widest=widest, wider=wider, words=self.said)
         place = TablePlace(top, last, column, tuple(each.key for each in part.columns), whole)
         self.placed[key] = self.sheet, place
         if whole:
@@ -128,7 +151,7 @@ class SheetWriter:
                     self._write_changeable(self.sheet[f"{letter}{i}"], figure)
             self._live_columns(part, place)
             if part.foot:
-                write_totals(self.sheet, last + 1, part, self.contents.system, column)
+                write_totals(self.sheet, last + 1, part, system, column)
         return place
 
     def _write_changeable(self, cell: Cell, figure: Figure) -> None:
@@ -219,7 +242,7 @@ class SheetWriter:
 
     def _write_note(self, row: int, key: str, least: float) -> int:
         """Write the note of a table; return its number of rows."""
-        place, note = self.placed[key][1], self.contents[key].note
+        place, note = self.placed[key][1], self.said(self.contents[key].note)
         cell = self.sheet.cell(row, place.first_column)
         write_value(cell, note, GREY)
         columns = self._columns_of_width(least, range(place.first_column, self._last_printed(key, place) + 1))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from datetime import date
 from itertools import pairwise
 
@@ -61,12 +61,12 @@ def tension_sheet(page: SheetWriter) -> None:
     """Tension behind every section in every state, with a chart; states that fail in red."""
     place = page.place_single("section_ends")
     sheet, row = page.sheet, place.last + 3
-    for column in range(place.first_column, place.last_column + 1):
-        head = sheet.cell(place.header, column)
-        if FAILS in str(head.value):
-            head.fill = VERDICT_STYLES["FAIL"].fill
+    failing = [column.key for column in page.contents["section_ends"].columns if FAILS in column.label]
+    for key in failing:
+        sheet.cell(place.header, place.column(key)).fill = VERDICT_STYLES["FAIL"].fill
     if place.whole:
-        sheet.add_chart(charts.tension_chart(sheet, place, page.contents.system), f"A{row}")
+        chart = charts.tension_chart(sheet, place, page.contents.system, failing=failing, said=page.said)
+        sheet.add_chart(chart, f"A{row}")
 
 
 def transfer_sheet(page: SheetWriter) -> None:
@@ -77,7 +77,7 @@ def transfer_sheet(page: SheetWriter) -> None:
     drawn = page.stacked([key for key in page.keys if not contents[key].printed], row + 2 * CHART_ROWS)
     if drawn:
         pair = drawn["trajectory"], drawn["pulley_outline"]
-        page.sheet.add_chart(charts.trajectory_chart(page.sheet, *pair, contents.system), f"A{row}")
+        page.sheet.add_chart(charts.trajectory_chart(page.sheet, *pair, contents.system, said=page.said), f"A{row}")
 
 
 def uncertainty_sheet(page: SheetWriter) -> None:
@@ -87,7 +87,8 @@ def uncertainty_sheet(page: SheetWriter) -> None:
     if place.whole and place.last - place.header <= _MOST_BARS:
         rows = place.header, place.last
         swing = place.column("swing")
-        chart = charts.bar_chart(page.sheet, "Sensitivity of motor power", rows, label=place.first_column, value=swing)
+        title = page.said("Sensitivity of motor power")
+        chart = charts.bar_chart(page.sheet, title, rows, label=place.first_column, value=swing)
         page.sheet.add_chart(chart, f"{get_column_letter(place.first_column)}{place.last + 4}")
 
 
@@ -98,13 +99,13 @@ def rubber_sheet(page: SheetWriter) -> None:
     strands = [strand for strand in ("carry", "return") if f"known_{strand}" in contents]
     for strand in strands:
         known = contents[f"known_{strand}"]
-        row = _write_compound(sheet, row, f"{known.heading}, {strand} strand", known.rows)
+        row = _write_compound(page, row, f"{known.heading}, {strand} strand", known.rows)
     charted, row = row, row + CHART_ROWS
     tables = [f"{name}_{strand}" for strand in strands for name in ("moduli", "prony")]
     places = page.stacked(tables, row)
     for strand, corner in zip(strands, ("A", "E"), strict=False):
         name, moduli = contents[f"known_{strand}"].heading.rpartition(" (")[0], places[f"moduli_{strand}"]
-        chart = charts.moduli_chart(sheet, name, moduli, contents.system)
+        chart = charts.moduli_chart(sheet, name, moduli, contents.system, said=page.said)
         charts.resize_chart(chart, _NARROW_CHART)
         sheet.add_chart(chart, f"{corner}{charted}")
         if len(strands) == 1:  # one compound on both strands
@@ -115,20 +116,19 @@ def rubber_sheet(page: SheetWriter) -> None:
         sheet.column_dimensions[get_column_letter(column)].width = width
 
 
-def _write_compound(sheet: Worksheet, row: int, heading: str, facts: Sequence[tuple[str, str]]) -> int:
+def _write_compound(page: SheetWriter, row: int, heading: str, facts: Sequence[tuple[str, str]]) -> int:
     """Write the facts of a compound; return the next row."""
-    write_value(sheet.cell(row, 1), heading, HEADING)
+    page.write(row, 1, heading, HEADING)
     for name, value in facts:
         row += 1
-        write_value(sheet.cell(row, 1), name, GREY)
-        sheet.cell(row, 1).alignment = Alignment(vertical="top", wrap_text=True)
-        _write_across(sheet, row, 2, value, columns=8)
+        page.write(row, 1, name, GREY)
+        page.sheet.cell(row, 1).alignment = Alignment(vertical="top", wrap_text=True)
+        _write_across(page.sheet, row, 2, page.said(value), columns=8)
     return row + 2
 
 
 def notes_sheet(page: SheetWriter) -> None:
     """Checks, method, warnings, assumptions, notes of the spec, provenance."""
-    sheet, contents = page.sheet, page.contents
     row = page.place("checks", 1, widest=40).last + 3
     for heading, kind in (
         ("Method", "method"),
@@ -136,9 +136,7 @@ def notes_sheet(page: SheetWriter) -> None:
         ("Assumptions", "assumption"),
         ("Notes of the spec", "note of the spec"),
     ):
-        lines = contents.lines(kind)
-        pieces = [line[i : i + _CELL_CHARACTERS] for line in lines for i in range(0, len(line), _CELL_CHARACTERS)]
-        row = write_paragraphs(sheet, row, heading, pieces, columns=6)
+        row = write_paragraphs(page, row, heading, page.contents.lines(kind), columns=6)
     page.rest(page.place("provenance", row, widest=34).last + 4, but=("remarks",))
 
 
@@ -147,10 +145,10 @@ def about_sheet(page: SheetWriter) -> None:
     sheet, head = page.sheet, page.contents.document
     write_value(sheet["A1"], head.title, TITLE)
     for row, (name, value) in enumerate(head.facts, start=2):
-        write_value(sheet.cell(row, 1), name, GREY)
-        write_value(sheet.cell(row, 2), value)
+        page.write(row, 1, name, GREY)
+        page.write(row, 2, value)
     sheet.column_dimensions["A"].width, sheet.column_dimensions["B"].width = 26, 60
-    row = write_paragraphs(sheet, len(head.facts) + 3, "What these figures are", page.contents.lines("assumption"))
+    row = write_paragraphs(page, len(head.facts) + 3, "What these figures are", page.contents.lines("assumption"))
     page.rest(row, but=("remarks",))
 
 
@@ -169,11 +167,11 @@ def ranking_sheet(page: SheetWriter) -> None:
     """Ranking on one page: facts, ranking, costs, chart of the differences, notes."""
     sheet, contents, about = page.sheet, page.contents, page.contents.document
     facts = dict(about.facts)
-    write_value(sheet["A1"], f"Compounds compared: {about.title}", TITLE)
+    page.write(1, 1, f"Compounds compared: {about.title}", TITLE)
     stamp = f"conveyor {package_version('conveyor')}, {date.today().isoformat()}, spec {about.fingerprint[:16]}"
-    write_value(sheet["A2"], "; ".join(filter(None, (about.document_line, stamp))), GREY)
+    page.write(2, 1, "; ".join(filter(None, (about.document_line, stamp))), GREY)
     words = f"{facts['cover']} cover of each compound; base of savings: {facts['savings against']}"
-    write_value(sheet["A3"], words, GREY)
+    page.write(3, 1, words, GREY)
     row = 5
     if "ranking" in contents:
         ranked = contents["ranking"]
@@ -188,14 +186,14 @@ def ranking_sheet(page: SheetWriter) -> None:
         if place.whole and "motor_power_against_base" in place.keys:
             at = display_unit("speed", contents.system).said(speeds[0], 4)
             title = f"Mean motor power against {facts['savings against']} at {at}"
-            sheet.add_chart(charts.difference_chart(sheet, title, place, last), f"A{row}")
+            sheet.add_chart(charts.difference_chart(sheet, title, place, last, said=page.said), f"A{row}")
             row += CHART_ROWS
     tables = [contents[key].on_sheet() for key in ("ranking", "costs") if key in contents]
     printed = max((sum(column.page is not None for column in table.columns) for table in tables), default=0)
     widest = paragraph_width(sheet, range(1, 1 + printed), about.paper)
     for heading, lines in zip(NOTE_HEADINGS, sort_notes(contents.lines("warning")), strict=True):
         if lines:
-            row = write_paragraphs(sheet, row, heading.capitalize(), lines, columns=max(8, printed), widest=widest)
+            row = write_paragraphs(page, row, heading.capitalize(), lines, columns=max(8, printed), widest=widest)
     page.rest(row)
 
 
@@ -207,11 +205,11 @@ def power_sheet(page: SheetWriter) -> None:
         part = contents[key]
         place = page.place(key, row, widest=24)
         if place.whole and len(part.rows) > 1:
-            chart = charts.power_over_temperature(sheet, place, part, contents.system)
+            chart = charts.power_over_temperature(sheet, place, part, contents.system, said=page.said)
             sheet.add_chart(chart, f"A{place.last + 2}")
         row = place.last + CHART_ROWS + 5
     if row == 1:
-        write_value(sheet["A1"], "No temperature that every compound has an answer for", HEADING)
+        page.write(1, 1, "No temperature that every compound has an answer for", HEADING)
 
 
 def scenes_sheet(page: SheetWriter) -> None:
@@ -219,7 +217,7 @@ def scenes_sheet(page: SheetWriter) -> None:
     if "scenes" in page.contents:
         page.place_single("scenes", widest=44)
     else:
-        write_value(page.sheet["A1"], "No scene has an answer", HEADING)
+        page.write(1, 1, "No scene has an answer", HEADING)
 
 
 def coverage_sheet(page: SheetWriter) -> None:
@@ -230,32 +228,33 @@ def coverage_sheet(page: SheetWriter) -> None:
     if "refused" in page.contents:
         page.place("refused", row, widest=90)
     else:
-        write_value(page.sheet.cell(row, 1), "Scenes without an answer: none", HEADING)
+        page.write(row, 1, "Scenes without an answer: none", HEADING)
     page.sheet.freeze_panes = "B1"
 
 
 def compounds_sheet(page: SheetWriter) -> None:
     """Compounds, remarks, provenance."""
     row = page.place("compounds", 1, widest=24, unknown=34).last + 3
-    row = write_paragraphs(page.sheet, row, "Remarks", page.contents.lines("warning"), columns=6)
+    row = write_paragraphs(page, row, "Remarks", page.contents.lines("warning"), columns=6)
     page.place("provenance", row, widest=24)
     page.sheet.freeze_panes = "B1"
 
 
 def write_paragraphs(
-    sheet: Worksheet,
+    page: SheetWriter,
     row: int,
     heading: str,
-    lines: tuple[str, ...] | list[str],
+    lines: Iterable[str],
     *,
     columns: int = 4,
     widest: float = TEXT_WIDTH,
 ) -> int:
-    """Write a heading and lines of text across columns; return the next row but one."""
-    write_value(sheet.cell(row, 1), heading, HEADING)
-    for line in lines or ("none",):
-        row += 1
-        _write_across(sheet, row, 1, line, columns=columns, widest=widest)
+    """Write a heading and lines of text across columns, long ones in pieces; return the next row but one."""
+    page.write(row, 1, heading, HEADING)
+    for line in map(page.said, tuple(lines) or ("none",)):
+        for i in range(0, len(line), _CELL_CHARACTERS):
+            row += 1
+            _write_across(page.sheet, row, 1, line[i : i + _CELL_CHARACTERS], columns=columns, widest=widest)
     return row + 2
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
 from conveyor.report.plots import curve_colour, drawing_settings
-from conveyor.report.translated_page import translate_figure
+from conveyor.report.translated_page import localise_ticks, translate_figure
 from conveyor.text.markup import Html, Markup, element
 from conveyor.text.printable import escape_controls
 from conveyor.units.sentences import SUPERSCRIPTS
@@ -76,6 +76,8 @@ def figure_svg(
         if words is not None:
             translate_figure(figure, words)
         restyle_figure(figure, on_paper=on_paper)
+        if words is not None:
+            localise_ticks(figure, words)
         drawn = _svg_bytes(figure)
     return Markup(_clean_svg(escape_controls(drawn.decode()), name, escape_controls(label), words))
 
@@ -247,8 +249,6 @@ def _clean_svg(svg: str, name: str, label: str, words: Translator | None) -> str
         node.tag = node.tag.removeprefix(_SVG_NAMESPACE)
         if node.text is not None and node.tag not in {"text", "tspan", "title"}:
             node.text = None
-        if node.text is not None and words is not None:
-            node.text = words.numbers_only(node.text)
         node.tail = None
         if node.get("id") in used:
             node.set("id", f"{name}-{node.get('id')}")

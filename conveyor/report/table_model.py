@@ -427,9 +427,8 @@ class Contents:
         """Tables in order."""
         return tuple(self.by_key.values())
 
-    @cached_property
-    def translator(self) -> Translator | None:
-        """Translator of its texts; None in English."""
+    def make_translator(self) -> Translator | None:
+        """Return a translator of its texts; None in English."""
         about = self.document
         return None if about.language == "en" else report_translator(about.language, about.names(), about.notes())
 

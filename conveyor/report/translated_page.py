@@ -6,6 +6,7 @@ from dataclasses import replace
 from textwrap import wrap
 from typing import TYPE_CHECKING, Final
 
+from conveyor.languages.number_format import NumberFormat
 from conveyor.languages.translator import Translator
 from conveyor.text.markup import Html, Markup
 
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.container import Container
     from matplotlib.figure import Figure
+    from matplotlib.ticker import Formatter
 
 _ATTRIBUTES: Final = frozenset({"aria-label", "data-label", "alt", "title"})
 _HEADINGS: Final = frozenset({"caption", "dt", "h2", "h3", "summary"})
@@ -54,6 +56,31 @@ def translate_figure(figure: Figure, translator: Translator) -> None:
             if isinstance(axis.get_major_locator(), FixedLocator):
                 labels = [_translate_lines(words.get_text(), translator) for words in axis.get_ticklabels()]
                 axis.set_ticklabels(labels)
+
+
+def localise_ticks(figure: Figure, translator: Translator) -> None:
+    """Write the numbers along the axes of a figure as the language has them; labels are translated already."""
+    from matplotlib.ticker import FixedFormatter
+
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            written = axis.get_major_formatter()
+            if not isinstance(written, FixedFormatter):
+                axis.set_major_formatter(_local_formatter(written, translator.catalogue.numbers))
+
+
+def _local_formatter(written: Formatter, numbers: NumberFormat) -> Formatter:
+    """What another formatter writes, in the signs of a language."""
+    from matplotlib.ticker import Formatter
+
+    class LocalFormatter(Formatter):
+        def __call__(self, x: float, pos: int | None = None) -> str:
+            return numbers.localise(written(x, pos))
+
+        def set_locs(self, locs: list[float]) -> None:
+            written.set_locs(locs)
+
+    return LocalFormatter()
 
 
 def _translate_lines(words: str, translator: Translator) -> str:

@@ -396,8 +396,9 @@ def _unanswered_cases(study: CalculatedCases) -> Iterator[Check]:
     count = f"{len(study.refused)} of {len(study.results) + len(study.refused)}"
     for refusal in study.refused:
         yield Check(
-            "case_answer", message("answer to every case"), None, None, "number", message(f"none to {count}"),
-            message("an answer"), "FAIL", message(escape_braces(refusal.reason)),
+            "case_answer", message("answer to every case"), None, None, "number",
+            message(f"{count} cases could not be calculated"), message("every case calculated"), "FAIL",
+            message(escape_braces(refusal.reason)),
             case=_case_label(cases[refusal.case], refusal.temperature, refusal.speed),
         )  # fmt: skip
 

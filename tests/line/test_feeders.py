@@ -197,7 +197,7 @@ def test_a_start_that_stalls_says_what_torque_it_needs(feeder):
     assert f"{start.required / rated:.2f} times the rated torque breaks it away" in str(start.why)
     times = {state.name: state.start_time for state in weak.hopper_states}
     assert times["filled, after standing"] is None
-    assert times["flow"] is not None
+    assert times["in flow"] is not None
 
 
 def test_a_start_through_time_breaks_the_initial_load_away(feeder):

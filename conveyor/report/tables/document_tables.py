@@ -20,7 +20,7 @@ from conveyor.units import Quantity, System
 from conveyor.units.presentation import display_unit, format_figure
 from conveyor.units.sentences import percent
 
-_PACKAGES: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
+_PACKAGES: Final = ("numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
 def report_head(
@@ -108,10 +108,10 @@ def input_table(entries: tuple[InputRow, ...]) -> Table:
 
 
 def grouped_input_table(entries: Sequence[InputRow], system: System, *, defaults: bool) -> Table:
-    """Inputs grouped by part: those given, or those left to defaults."""
+    """Inputs grouped by part, given or left to defaults; without the language, which a command may change."""
     columns = (Column("part", "text", "0", verbatim=True), Column("values", "text", "1", verbatim=True))
     key, heading = ("inputs_default", "Inputs left to defaults") if defaults else ("inputs_given", "Inputs given")
-    chosen = [row for row in entries if (row[-1] == "default") is defaults]
+    chosen = [row for row in entries if (row[-1] == "default") is defaults and row[0] != "report.language"]
     return Table(key, "Given", heading, columns, group_inputs(chosen, system, alike=defaults), "inputs")
 
 
@@ -120,9 +120,10 @@ def provenance_table(spec: str, sheet: str = "Checks and notes") -> Table:
     facts = {
         "spec SHA-256": spec,
         "date": date.today().isoformat(),
+        "program conveyor": package_version("conveyor"),
         "python": platform.python_version(),
         **{name: package_version(name) for name in _PACKAGES},
     }
-    columns = (Column("made by", "text", "0", verbatim=True), Column("version", "text", "1", verbatim=True))
+    columns = (Column("made by", "text", "0"), Column("version", "text", "1", verbatim=True))
     page = (PagePlacement("provenance", "What made these figures", printed=False),)
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)

@@ -86,7 +86,7 @@ def _state_rows(a: CalculatedConveyor, point: LoadingPoint, hopper: HopperOutlet
     name = point.name.removeprefix(", ") or point.place
     states = (
         ("initial, after filling", hopper.initial_factor, hopper.initial_load),
-        ("flow", hopper.flow_factor, hopper.flow_load),
+        ("in flow", hopper.flow_factor, hopper.flow_load),
     )
     return [
         (name, state, hopper, factor, load, *forces, sum(forces) * a.line.speed)

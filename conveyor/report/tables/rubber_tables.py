@@ -66,8 +66,8 @@ def contact_solutions(a: CalculatedConveyor) -> Table:
         Column("energy error", "error", "0.energy_error"),
     )
     heading, caption = (
-        "Contacts, one a distinct roll, cover and spacing",
-        "Contact solutions, one a distinct roll, cover and spacing",
+        "Contact solutions, one row per roll, cover and spacing",
+        "Contact solutions, one row per roll, cover and spacing",
     )
     rows, page = tuple(_distinct_contacts(a).items()), (PagePlacement("provenance", caption, printed=False),)
     return Table("contact_solutions", "Indentation", heading, columns, rows, page, printed=False)

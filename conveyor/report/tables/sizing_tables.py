@@ -334,7 +334,8 @@ def _sizing_remarks(sizing: CalculatedSizing) -> Table:
     told = _CANDIDATES.format(calculated=sizing.calculated, possible=f"{sizing.possible:,}")
     lines = [
         *failed_fits(compounds_by_strand(best.conveyor).values()),
-        f"the ranks are exact: {told}; a candidate that was not calculated may be better by what the estimate is off",
+        f"ranked by full calculation: {told}; an uncalculated candidate may be better, within the error of the "
+        "estimate",
         f"the estimate's cost of a year was off by at most {percent(sizing.estimate_error, 1)} where it was calculated",
         f"{sizing.candidates:,} combinations keep the rules of width, lumps, filling, edge distance and rotation",
         "prices, series and rules without a source are general knowledge, orders of magnitude: give your own in the "
@@ -373,8 +374,9 @@ def _missing_feeding(sizing: CalculatedSizing) -> Iterator[str]:
     """Remark on a duty without a loading point: what its designs assume and have not, and what to give."""
     if sizing.duty.sized_route.feeding is None:
         yield (
-            "no loading point is given: carry sets stand closer over the belt's way in 1.2 s, as long as Martin "
-            "Engineering has skirtboards, half as far apart as elsewhere (general knowledge; rules.loading_spacing); "
+            "no loading point is given: carry sets stand closer over the distance the belt runs in 1.2 s (skirtboard "
+            "length after Martin Engineering), half as far apart as elsewhere (general knowledge; "
+            "rules.loading_spacing); "
             "they are not judged for impact, skirts are assumed: give route.feeding with skirt_length, skirt_width and "
             "drop_height"
         )
