@@ -253,8 +253,8 @@ def test_filling_is_bulk_over_what_the_belt_holds(line, all_of):
     """The flow raised by the inverse of the filling is what the belt holds on the level; half of it more is refused."""
     filled = all_of["filling of the belt (incline)"]
     assert filled.verdict == "pass"
-    (percent,) = re.findall(r"(\d+) % of the level cross-section", filled.found)
-    share = float(percent) / 100.0
+    (percent,) = re.findall(r"(\d+) % of the cross-section on its slope", filled.found)
+    share = float(percent) / 100.0 * line.section_on_slope(math.asin(70.0 / 700.0)) / line.section_on_slope(0.0)
     flow = line.material.flow
     line.replace(material={**line.material.as_data(), "flow": f"{1.5 * flow.magnitude / (share + 0.005):.6g} stph"})
     with pytest.raises(conveyor.InputError, match="needs a cross-section"):
