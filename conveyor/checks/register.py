@@ -42,7 +42,14 @@ from conveyor.checks.pulley_checks import (
     pulley_shaft,
 )
 from conveyor.checks.scale_checks import belt_scales
-from conveyor.checks.tension_checks import belt_sag, drive_grip, slack_belt, take_up_tension, take_up_travel
+from conveyor.checks.tension_checks import (
+    belt_sag,
+    drive_grip,
+    slack_belt,
+    take_up_place,
+    take_up_tension,
+    take_up_travel,
+)
 from conveyor.line.line import Line
 from conveyor.loop.worst_loadings import SINGLE_CHANGE_SECTIONS
 
@@ -76,7 +83,8 @@ _SECTION_CRITERIA: Final = frozenset({"curve_radius", "pipe_radius", "belt_drift
 
 
 CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
-    belt_filling, bulk_slope, motor_power, take_up_tension, take_up_travel, drive_grip, belt_sag, slack_belt,
+    belt_filling, bulk_slope, motor_power, take_up_tension, take_up_travel, take_up_place, drive_grip, belt_sag,
+    slack_belt,
     belt_safety, belt_rating,
     splice_strength, cover_thickness, belt_turnover, belt_temperature, pulley_diameter, curve_radius,
     wind_lift, horizontal_edges, belt_drift, pipe_curves, belt_transitions, pipe_bearing, pipe_lap, pipe_lumps,

@@ -8,11 +8,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from conveyor.calculated_conveyor import CalculatedConveyor
-from conveyor.checks.check import Check, check_against_limit
+from conveyor.checks.check import Check, check_against_limit, pass_or_fail
 from conveyor.laws.take_up import SCREW_LENGTH
 from conveyor.laws.tension import grip_tension
 from conveyor.line.line import Line
 from conveyor.line.stretches import STRANDS
+from conveyor.line.usual_parts import LOOP_KINDS
 from conveyor.loop.equilibrium import tension_suffices
 from conveyor.loop.start_and_stop import motion_states
 from conveyor.loop.take_up_duty import TakeUpDuty, take_up_weight_mass
@@ -40,6 +41,40 @@ def _setting_text(line: Line, tension: float) -> tuple[str, tuple[tuple[float, s
     if line.take_up.kind != "gravity":
         return "{}", ((tension, "force"),)
     return "{} (a weight of {})", ((tension, "force"), (take_up_weight_mass(line, tension), "mass"))
+
+
+def take_up_place(result: CalculatedConveyor) -> Iterator[Check]:
+    """The pulleys of a take-up in the belt's loop do not stand where the belt bears bulk."""
+    line = result.line
+    if line.take_up.kind not in LOOP_KINDS:
+        return
+    section = _section_at_take_up(line, behind=result.balance.equilibrium.take_up.behind)
+    found, why = "none", None
+    if section is not None:
+        found = "on the belt"
+        why = message(
+            "the take-up stands in the loaded carry strand, where no pulley bends the belt: set route.take_up.position "
+            "to head, tail or return"
+        )
+    yield Check(
+        "take_up_place", message("bulk at the take-up"), None, None, "number", message(found), message("none"),
+        pass_or_fail(holds=section is None), why, where=section or "",
+    )  # fmt: skip
+
+
+def _section_at_take_up(line: Line, *, behind: bool) -> str | None:
+    """Section whose bulk is on the belt at the take-up, `behind` or before the drives; None if none is.
+
+    A tripper takes the bulk off before its drive; at the head the carry strand ends before the drives.
+    """
+    unit = line.take_up
+    spot = line.drives[0].spot if unit.spot is None else unit.spot
+    section = spot.boundary - line.count - 1
+    taken_off = any(point.lift is not None and point.spot.boundary == spot.boundary for point in line.loading)
+    if section < 0 or taken_off or (spot.boundary == 2 * line.count and behind):
+        return None
+    stretch = line.stretches[section]
+    return stretch.section if stretch.bulk_mass > 0.0 else None
 
 
 def take_up_travel(result: CalculatedConveyor) -> Iterator[Check]:

@@ -27,7 +27,8 @@ SKIRT_SEALS: Final = SEALS_PER_FOOT.value * POUND_FORCE / FOOT  # [N/m] of skirt
 SHAFT_DIAMETER_RATIO: Final = 0.2  # [-], general knowledge: over the pulley's diameter
 _Place = Literal["head", "take-up", "tail"]
 _ENDS: Final[tuple[Literal["head", "tail"], ...]] = ("head", "tail")
-_LOOP_KINDS: Final = frozenset({"gravity", "winch", "locked winch"})  # general knowledge: with pulleys of their own
+LOOP_KINDS: Final = frozenset({"gravity", "winch", "locked winch"})
+"""Kinds of take-up with pulleys of their own in the belt's loop, but at the tail; general knowledge."""
 TAKE_UP_WRAPS: Final = {"bend 1": "90 deg", "take-up": None, "bend 2": "90 deg"}  # else half a turn; general knowledge
 
 
@@ -73,7 +74,7 @@ def route_pulleys(conveyor: Conveyor) -> tuple[tuple[Pulley, ...], bool]:
 def _take_up_pulleys(conveyor: Conveyor) -> tuple[Pulley, ...]:
     """Pulley of the take-up and its bends, of the least diameter of their group; none where it moves the tail."""
     take_up = conveyor.route.take_up
-    if take_up is None or take_up.kind not in _LOOP_KINDS or take_up.position == "tail":
+    if take_up is None or take_up.kind not in LOOP_KINDS or take_up.position == "tail":
         return ()
     diameter = pulley_group_diameter(_least_diameter(conveyor), group="B")
     return tuple(_usual_pulley(name, "take-up", diameter, wrap) for name, wrap in TAKE_UP_WRAPS.items())

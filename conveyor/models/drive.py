@@ -37,6 +37,7 @@ from conveyor.units import (
     text,
 )
 
+DesignFriction = Annotated[Fraction, Bounds(ge="100 %", le="500 %")]
 LEAST_FRICTION: Final = FRICTION_FACTOR_DOWNHILL.value / FRICTION_FACTOR.value
 """Friction relied on for braking over the computed one [-]: f downhill over f, general knowledge."""
 CEMA_LEAST_FRICTION: Final = 0.5
@@ -229,7 +230,7 @@ class Drive(DrivePulley):
     """Time wanted from full speed to rest without power and brakes; the flywheel it needs is shown."""
     least_friction: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
     """Friction that is certain where it helps to brake, over the computed one; 60 % without it, by CEMA 50 %."""
-    design_friction: Annotated[Fraction, Bounds(ge="100 %", le="500 %")] | None = None
+    design_friction: DesignFriction | None = None
     """Friction that motors, belt, grip and take-up are designed for, over the computed one; without it the upper end of
     the band of the defaults in use."""
     further_drives: Annotated[tuple[FurtherDrive, ...], Field(max_length=20)] = ()

@@ -17,6 +17,7 @@ from conveyor.laws.resistance import Site
 from conveyor.models.base import AnyInteger, Model, Name, Number, Problem, raise_problems
 from conveyor.models.calculation_methods import FACTOR_METHODS, Method
 from conveyor.models.compound import CompoundReference
+from conveyor.models.drive import DesignFriction
 from conveyor.models.material import BulkMaterial
 from conveyor.models.operation import EarthTemperature, Operation
 from conveyor.models.part_conflicts import flexure_factor_problems
@@ -46,6 +47,7 @@ from conveyor.units import (
     si,
     text,
 )
+from conveyor.units.sentences import ZERO_CELSIUS
 from conveyor.units.unit_systems import Trade, trade_of
 
 Carcasses = Literal["EP", "steel cord"]
@@ -208,6 +210,9 @@ class SiteRules(Model):
     """Method by which the motors have to suffice, beside the friction to design for of calculation.method."""
     motor_reserve: Annotated[Number, Field(ge=1, le=3)] = 1.1
     """Rated power of motors over the highest needed, with the friction to design for."""
+    design_friction: DesignFriction | None = None
+    """Friction that motors, belt, grip and take-up are designed for, over the computed one, as drive.design_friction of
+    the designs; without it the upper end of the band of the defaults in use."""
 
 
 class SizingDuty(Model):
@@ -234,7 +239,8 @@ class SizingDuty(Model):
     """Sections as in a spec; pulleys, take-up and distances of idlers are sized."""
     ambient: Ambient
     coldest: EarthTemperature | None = None
-    """Of the covers, for motors and strength; that of ambient without it."""
+    """Of the covers, for motors, strength and take-up, a load case of the designs; that of ambient without it. The air
+    around the rolls keeps ambient's distance to them."""
     operation: Operation
     covers: Annotated[tuple[CompoundReference, ...], Field(min_length=1, max_length=10)]
     """Compounds of the bottom cover to choose from; the first one is that of the top cover, too."""
@@ -260,6 +266,7 @@ class SizingDuty(Model):
         if self.route is not None:
             yield from self._sized_problems(self.route)
         yield from self._method_problems()
+        yield from self._cold_problems()
         if si(self.material.flow) == 0.0:
             yield Problem(("material", "flow"), "got 0: an empty belt has no duty; give what is conveyed")
         yield from self._series_problems()
@@ -320,6 +327,21 @@ class SizingDuty(Model):
             yield Problem(("rules", "basis"), "cema classic needs Ky and Ai from the book: give calculation.cema")
         if self.route is not None:
             yield from flexure_factor_problems(self.route, self.calculation)
+
+    def _cold_problems(self) -> Iterator[Problem]:
+        """Refuse a coldest temperature above that of the duty, and frost by CEMA without its factor."""
+        usual = self.ambient.belt
+        coldest = usual if self.coldest is None else self.coldest
+        if si(coldest) > si(usual):
+            told = f"got {text(coldest)}, warmer than the covers of the duty (ambient), {text(usual)}; correct one"
+            yield Problem(("coldest",), told)
+        cema = self.calculation.cema
+        by_cema = "cema classic" in {self.calculation.method, self.rules.basis}
+        if by_cema and cema is not None and "temperature_factor" not in cema.model_fields_set:
+            lowest = min(coldest, usual, self.ambient.temperature, key=si)
+            if si(lowest) < ZERO_CELSIUS:
+                told = f"missing: at {text(lowest)}, below freezing, give the book's Kt"
+                yield Problem(("calculation", "cema", "temperature_factor"), told)
 
     def _price_problems(self) -> Iterator[Problem]:
         price = self.operation.price

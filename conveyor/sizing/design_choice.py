@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Final, NamedTuple
+from typing import Final, Literal, NamedTuple
 
 from conveyor.errors import RangeError
 from conveyor.laws.belt_strength import CLASSIC_SAFETY, least_cover
@@ -15,6 +15,7 @@ from conveyor.models.maker_lists import ListedItem
 from conveyor.models.sizing import DriveLayout, within_limit
 from conveyor.units import from_si
 
+TakeUpPlace = Literal["drive", "head end", "tail end"]
 _V_ANGLE: Final = math.radians(10.0)
 
 
@@ -287,6 +288,7 @@ class SelectedParts:
     """Parts selected from a candidate's tensions: carcass, covers [m], motors of each drive [W], brake force [N].
 
     `backstop`: torque of that on the first pulley [N m]; `take_up`: its tension [N], 0 where grip and sag decide;
+    `take_up_place`: on the slack side of the first drive, or at an end of the return strand;
     `listed`: items of makers' lists, None without lists of pulleys and parts of drives;
     `shafts`: diameter of each pulley's shaft [m], none before all loads are known, and of listed pulleys;
     `settling`: selected from exact tensions already.
@@ -299,6 +301,7 @@ class SelectedParts:
     brake: float
     backstop: float = 0.0
     take_up: float = 0.0
+    take_up_place: TakeUpPlace = "drive"
     listed: ListedParts | None = None
     settling: bool = False
     shafts: tuple[float, ...] = ()

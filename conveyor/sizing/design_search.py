@@ -194,7 +194,7 @@ def _rank_with_neighbours(search: _Search, final: list[SizedDesign]) -> tuple[li
     """
     task, tried = search.task, set[DesignChoice]()
     while True:
-        first, ranked = final[0], {one.choice for one in final}
+        first = final[0]
         neighbours = size_neighbours(task, first)
         cheaper = {
             choice: one
@@ -203,7 +203,6 @@ def _rank_with_neighbours(search: _Search, final: list[SizedDesign]) -> tuple[li
             and one.year < first.year
             and choice.thicker <= first.choice.thicker
             and choice not in tried
-            and one.choice not in ranked
         }
         if not cheaper:
             return final, neighbours

@@ -63,8 +63,8 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
         section["carry_spacing"] = written(spacing, "m")
     route = divide_loading_sections(task, choice, route, written)
     route["pulleys"] = _all_pulleys(task, choice, chosen)
-    tension = {"tension": written(chosen.take_up, "kN", 4)} if chosen.take_up > 0.0 else {}
-    route["take_up"] = {"kind": "gravity", "position": "drive", **tension}
+    tension = {"tension": written(chosen.take_up, "kN")} if chosen.take_up > 0.0 else {}
+    route["take_up"] = {"kind": "gravity", **_take_up_position(chosen, route["sections"][0]["name"]), **tension}
     covers = duty.covers
     return Conveyor.from_data({
         "name": name,
@@ -82,7 +82,15 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
         "idlers": _idler_fields(task, choice),
         "route": route,
         "drive": _drive_fields(task, choice, chosen),
+        **({"cases": task.cases} if task.cold else {}),
     })  # fmt: skip
+
+
+def _take_up_position(chosen: SelectedParts, first: str) -> dict[str, str]:
+    """Spec fields of the take-up's place; the tail end of the return strand is behind the first section."""
+    if chosen.take_up_place == "tail end":
+        return {"position": "return", "section": first}
+    return {"position": "head" if chosen.take_up_place == "head end" else "drive"}
 
 
 def built_choice(task: SizingTask, choice: DesignChoice, chosen: SelectedParts) -> DesignChoice:
@@ -221,6 +229,7 @@ def _drive_fields(task: SizingTask, choice: DesignChoice, chosen: SelectedParts)
         **({} if train else {"efficiency": f"{100.0 * task.efficiency:.6g} %"}),
         **({"service_factor": rules.service_factor} if rated else {}),
         "start_factor": rules.start_factor,
+        **({} if rules.design_friction is None else {"design_friction": rules.design_friction}),
     }
     further = []
     for number in range(2, len(motors) + 1):

@@ -14,9 +14,11 @@ from conveyor.checks.drive_checks import motor_power
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.laws.belt_strength import RATED_START
 from conveyor.laws.drives import next_preferred_number
+from conveyor.loop.equilibrium import tension_suffices
+from conveyor.loop.take_up_duty import at_common_setting
 from conveyor.models import Conveyor
 from conveyor.pipeline import calculate_many
-from conveyor.sizing.design_choice import CarcassClass, DesignChoice, SelectedParts
+from conveyor.sizing.design_choice import CarcassClass, DesignChoice, SelectedParts, TakeUpPlace
 from conveyor.sizing.design_spec import SHAFT_STEEL, built_choice, design_spec, drive_diameter
 from conveyor.sizing.listed_drives import HoldingDemand, select_listed_parts
 from conveyor.sizing.screen import Limit
@@ -37,10 +39,6 @@ BRAKE_RESERVE: Final = 1.3
 
 
 _SIZINGS: Final = 8  # rounds of belt class, motors and brake against their own tensions
-
-
-TAKE_UP_STEP: Final = 500.0
-"""Step of a take-up tension that keeps the belt taut beyond the least for grip and sag [N]."""
 
 
 LIMIT_MESSAGES: Final[Mapping[Limit, str]] = {
@@ -101,7 +99,7 @@ def size_parts(
         specs, refused = candidate_specs(task, {i: (begin[i][0], chosen) for i, chosen in now.items()})
         answers |= refused
         alike = {i: made[i] for i in specs if made and now[i] == made[i].chosen}
-        coldest = {i: task.colder(spec) if task.cold else spec for i, spec in specs.items()}
+        coldest = {i: task.colder(spec) for i, spec in specs.items()}
         known = {i: one.found for i, one in alike.items()}
         cold = calculate_specs(coldest, {i: one.coldest for i, one in alike.items()})
         warm = calculate_specs({i: spec for i, spec in specs.items() if i in both}, known)
@@ -159,11 +157,24 @@ def _required_parts(
         try:
             loads = _design_loads(answer, every_load=every_load)
             milder = _design_loads(warm[i], every_load=every_load) if i in warm else ()
+            loads, milder = _at_one_weight(loads, milder)
         except (NoSolutionError, RangeError, InputError) as error:
             asked[i] = _RequiredParts(short=_without_answer(error))
             continue
         asked[i] = _select_parts(task, begin[i][0], now[i], _RequiredParts(loads, milder), every_load=every_load)
     return asked
+
+
+def _at_one_weight(
+    cold: tuple[CalculatedConveyor, ...], warm: tuple[CalculatedConveyor, ...]
+) -> tuple[tuple[CalculatedConveyor, ...], tuple[CalculatedConveyor, ...]]:
+    """Loads of both temperatures with the one take-up that suits them all, which is that of the spec if it has one."""
+    if not warm:
+        return cold, warm
+    loads = (*warm, *cold)
+    closed = at_common_setting([one.balance for one in loads])
+    made = tuple(replace(one, balance=balance) for one, balance in zip(loads, closed, strict=True))
+    return made[len(warm) :], made[: len(warm)]
 
 
 def _without_answer(error: NoAnswer) -> Shortfall:
@@ -249,7 +260,8 @@ def _select_parts(
     backstop = max(before.backstop, _backstop_torque(diameter, loads)) if every_load else before.backstop
     chosen = SelectedParts(
         carcass, *task.covers(choice, carcass), (motor,) * len(before.motors), brake, backstop,
-        _take_up_setting(before.take_up, loads), before.listed, settling=True, shafts=shafts,
+        _take_up_setting(task, before.take_up, loads, written=every_load and task.cold),
+        _take_up_place(choice, before.take_up_place, loads), before.listed, settling=True, shafts=shafts,
     )  # fmt: skip
     made = select_listed_parts(task, choice, chosen, _holding_demand(loads, held, every_load=every_load), loads)
     return replace(asked, short=made) if isinstance(made, Shortfall) else replace(asked, chosen=made)
@@ -296,14 +308,32 @@ def _required_shafts(
     return tuple(map(max, needed, before.shafts)) if before.settling and before.shafts else needed
 
 
-def _take_up_setting(before: float, loads: Sequence[CalculatedConveyor]) -> float:
-    """Take-up tension that keeps the belt taut in every state of motion [N]; 0 if that for grip and sag does."""
-    slack = max(-state.smallest for one in loads for state in one.motion_states)
-    if slack <= 0.0 and before == 0.0:
+def _take_up_setting(task: SizingTask, before: float, loads: Sequence[CalculatedConveyor], *, written: bool) -> float:
+    """Take-up tension for grip, sag and a taut belt in every state of motion of all loads [N].
+
+    0 if that for grip and sag keeps the belt taut, unless it is to be written.
+    """
+    slack = [max(-state.smallest for state in one.motion_states) for one in loads]
+    if max(slack) <= 0.0 and before == 0.0 and not written:
         return 0.0
-    setting = max(one.balance.equilibrium.setting for one in loads)
-    needed = max(setting + max(slack, 0.0), *(one.balance.equilibrium.needed for one in loads))
-    return before if needed <= before * (1.0 + RTOL) else TAKE_UP_STEP * math.ceil(needed / TAKE_UP_STEP)
+    needed = max(
+        max(one.balance.equilibrium.needed, one.balance.equilibrium.setting + lacking if lacking > 0.0 else 0.0)
+        for one, lacking in zip(loads, slack, strict=True)
+    )
+    return before if tension_suffices(before, needed) else _take_up_on_step(task, needed)
+
+
+def _take_up_on_step(task: SizingTask, needed: float) -> float:
+    """The next take-up tension on its step [N]."""
+    return task.take_up_step * math.ceil(needed / task.take_up_step)
+
+
+def _take_up_place(choice: DesignChoice, before: TakeUpPlace, loads: Sequence[CalculatedConveyor]) -> TakeUpPlace:
+    """Place of the take-up: its bends stand in the return strand, also where the slack side is the carry strand."""
+    at_tail = choice.drives == "tail"
+    if before == "drive" and any(one.balance.equilibrium.take_up.behind is at_tail for one in loads):
+        return "tail end" if at_tail else "head end"
+    return before
 
 
 def _required_strength(carcass: CarcassClass, choice: DesignChoice, loads: Sequence[CalculatedConveyor]) -> float:
@@ -368,8 +398,10 @@ def foresee_parts(task: SizingTask, design: SizedDesign) -> SelectedParts:
     backstop = chosen.backstop if task.duty.listed.items("backstops") else _backstop_torque(
         drive_diameter(task, replace(chosen, carcass=carcass)), design.pair
     )  # fmt: skip
+    setting = max(one.balance.equilibrium.setting for one in design.pair)
     return replace(
         chosen, carcass=carcass, top=top, bottom=bottom, motors=motors, backstop=backstop, settling=False,
+        take_up=_take_up_on_step(task, setting) if task.cold else chosen.take_up,
         shafts=_required_shafts(task, design.choice, replace(chosen, settling=False), design.pair),
     )  # fmt: skip
 

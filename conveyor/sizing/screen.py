@@ -307,10 +307,11 @@ def screen_candidates(task: SizingTask, every: Candidates, levels: EstimateCalib
         "bearings": task.roll_life / life,
         "set rating": np.max(around.sets.T / every.ratings(), axis=0),
     }
-    pushed = (every.driven(_tail_share) == 1.0) & (force >= 0.0)  # a drive at the tail pushes the belt
+    at_tail = every.driven(_tail_share) == 1.0
+    slack_under_bulk = at_tail == (force >= 0.0)  # a drive at the tail pushes the belt, one at the head holds it back
     possible = np.max(list(uses.values()), axis=0) <= 1.0
-    if (possible & ~pushed).any():
-        possible &= ~pushed
+    if (possible & ~slack_under_bulk).any():
+        possible &= ~slack_under_bulk
     first = cover == 0
     parts = Parts(
         width=width, length=length, strength=series.strengths[kind, carcass], steel_cord=steel.astype(float),

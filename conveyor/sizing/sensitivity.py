@@ -62,7 +62,7 @@ def size_neighbours(task: SizingTask, design: SizedDesign) -> Neighbours:
         Belt class, motors and brake are sized for each; the base with evenly spaced sets is one of them.
     """
     varied = _varied_choices(_choice_axes(task, replace(design.choice, graduated=()), design.chosen.bottom))
-    parts = replace(design.chosen, settling=False, backstop=0.0)
+    parts = replace(design.chosen, settling=False, backstop=0.0, take_up=0.0)
     made = size_parts(task, [(choice, parts, design.estimate) for choice in varied])
     return dict(zip(varied, made, strict=True))
 

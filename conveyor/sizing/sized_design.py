@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.models import Conveyor
 from conveyor.sizing.design_choice import DesignChoice, SelectedParts
 from conveyor.sizing.screen import Limit
 from conveyor.studies.costs import Costs
+from conveyor.studies.loads import EveryLoad, every_load
 from conveyor.units.presentation import format_figure, format_number
 from conveyor.units.sentences import Message
 
@@ -88,6 +90,11 @@ class SizedDesign:
     def safety(self) -> float:
         """Belt safety in steady running at the lowest temperature [-]."""
         return self.chosen.carcass.strength * self.found.line.belt.width / highest_tension(self.pair)
+
+    @cached_property
+    def every_load(self) -> EveryLoad:
+        """Its spec in every load, at the coldest and at the temperature of the duty, as `conveyor power` judges it."""
+        return every_load(self.conveyor, self.found)
 
     @property
     def pair(self) -> tuple[CalculatedConveyor, CalculatedConveyor]:

@@ -20,6 +20,7 @@ from conveyor.laws.preliminary_sizing import (
     standard_edge_distance,
     wear_addition,
 )
+from conveyor.laws.resistance.cema import POUND_FORCE
 from conveyor.laws.take_up import (
     PERMANENT_STRETCH_STEEL_CORD,
     PERMANENT_STRETCH_TEXTILE,
@@ -42,6 +43,7 @@ from conveyor.models.sizing import (
     size_series,
     within_limit,
 )
+from conveyor.models.variants import with_temperature
 from conveyor.sizing.classical_friction import ClassicalFriction
 from conveyor.sizing.design_choice import CarcassClass, DesignChoice, RollSize, TroughSize, WidthSize
 from conveyor.sizing.listed_sizes import listed_carcasses, listed_rolls, motor_power
@@ -223,7 +225,7 @@ class SizingTask:
     def warmth(self) -> float:
         """Temperature difference from the coldest covers to those of the duty [K]."""
         coldest = self.duty.coldest
-        return si(self.duty.ambient.belt) - si(coldest) if coldest is not None and self.cold else 0.0
+        return 0.0 if coldest is None else si(self.duty.ambient.belt) - si(coldest)
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -232,7 +234,7 @@ class SizingTask:
 
     @property
     def cold(self) -> bool:
-        """True if motors and strength are for colder covers than the energy."""
+        """True if motors, strength and take-up are for a colder conveyor than the energy."""
         coldest = self.duty.coldest
         return coldest is not None and si(coldest) < si(self.duty.ambient.belt)
 
@@ -482,8 +484,19 @@ class SizingTask:
         )
 
     def colder(self, conveyor: Conveyor) -> Conveyor:
-        """The conveyor with its covers at the coldest temperature."""
-        return conveyor.replace(ambient=conveyor.ambient.replace(belt_temperature=self.duty.coldest))
+        """The conveyor at the coldest temperature: its covers, and the air around its rolls as its load case has it."""
+        coldest = self.duty.coldest
+        return with_temperature(conveyor, coldest) if coldest is not None and self.cold else conveyor
+
+    @property
+    def cases(self) -> list[dict[str, Any]]:
+        """Load cases of the spec of a design: that at the coldest temperature, if any."""
+        return [{"name": "coldest", "temperatures": [self.duty.coldest]}] if self.cold else []
+
+    @property
+    def take_up_step(self) -> float:
+        """Step of a written take-up tension [N]."""
+        return 100.0 * POUND_FORCE if self.duty.series == "US" else 500.0
 
 
 def _carcass_class(kind: str, row: CarcassRow) -> CarcassClass:

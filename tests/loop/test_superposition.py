@@ -131,7 +131,7 @@ def test_the_pull_under_a_hopper_goes_with_its_bulk(kind, loading):
     conveyor = Conveyor.from_data(given | {"route": route, "calculation": {"not_given": "nothing"}})
     found = added(conveyor)
     alone = closed(bearing(conveyor, loading)).held(found.setting)
-    assert ("hopper filled" in alone.settled.states) == loading[0]
+    assert ("hopper filled" in alone.equilibrium.states) == loading[0]
     expected = looked_for(alone)
     scale = CLOSED * alone.tensions.largest
     assert found.figures(np.array(loading)) == pytest.approx(expected, rel=CLOSED, abs=scale)

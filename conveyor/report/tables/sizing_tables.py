@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from conveyor.checks import run_checks
 from conveyor.line.covers import compounds_by_strand
 from conveyor.models.calculation_methods import FACTOR_METHODS, METHOD_NAMES
 from conveyor.remarks.assumptions import analysis_assumptions, failed_fits
@@ -78,7 +77,7 @@ def sizing_contents(sizing: CalculatedSizing, system: System, *, vary: bool = Tr
         best_design_table(sizing, system), design_table(sizing),
         *([listed_part_table(sizing)] if sizing.best.chosen.listed else []), cost_table(sizing),
         *([sweep_table(sizing, sweeps)] if sweeps else []), spacing_table(sizing),
-        check_table(run_checks(best.found), system), _sizing_remarks(sizing),
+        check_table(best.every_load.governing, system), _sizing_remarks(sizing),
         provenance_table(fingerprint(best.conveyor)),
     )  # fmt: skip
     about = report_head(best.conveyor, "Sizing", system, (("candidates", f"{sizing.candidates:,}"),))
