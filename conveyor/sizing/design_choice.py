@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Final, Literal, NamedTuple
 
@@ -305,3 +306,9 @@ class SelectedParts:
     listed: ListedParts | None = None
     settling: bool = False
     shafts: tuple[float, ...] = ()
+
+
+def drive_powers(power: float, layout: DriveLayout) -> Sequence[float]:
+    """Power of each drive of a layout, equal shares [W]."""
+    count = {"head": 1, "tail": 1, "head, two pulleys, and tail": 3}.get(layout, 2)
+    return (power / count,) * count

@@ -21,7 +21,7 @@ from conveyor.laws.take_up import TRAVEL_RESERVE
 from conveyor.line.stretches import STRANDS
 from conveyor.models.sizing import SizingDuty
 from conveyor.pipeline import ProgressCallback
-from conveyor.sizing.design_choice import DesignChoice, SelectedParts
+from conveyor.sizing.design_choice import DesignChoice, SelectedParts, drive_powers
 from conveyor.sizing.duty_refusal import refuse_duty, refuse_slope
 from conveyor.sizing.part_sizing import LIMIT_MESSAGES, calculate_specs, candidate_specs, foresee_parts, size_parts
 from conveyor.sizing.screen import (
@@ -34,7 +34,7 @@ from conveyor.sizing.screen import (
 )
 from conveyor.sizing.sensitivity import Neighbours, size_neighbours
 from conveyor.sizing.sized_design import Shortfall, SizedDesign
-from conveyor.sizing.sizing_task import SizingTask, drive_powers
+from conveyor.sizing.sizing_task import SizingTask
 from conveyor.sizing.spacing import graduated_spacings
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import Message

@@ -24,8 +24,8 @@ from conveyor.laws.roll_life import BALL_EXPONENT, RATED_REVOLUTIONS
 from conveyor.models.belt import RUBBER_DENSITY
 from conveyor.models.calculation_methods import Method
 from conveyor.models.sizing import DriveLayout
-from conveyor.sizing.design_choice import DesignChoice, RollSize, TroughSize
-from conveyor.sizing.sizing_task import SizingTask, drive_powers
+from conveyor.sizing.design_choice import DesignChoice, RollSize, TroughSize, drive_powers
+from conveyor.sizing.sizing_task import SizingTask
 from conveyor.studies.costs import Parts, conveyor_costs
 
 Array = NDArray[np.float64]

@@ -35,7 +35,6 @@ from conveyor.models.belt_shapes import Trough
 from conveyor.models.maker_lists import ListedItem
 from conveyor.models.sizing import (
     CarcassRow,
-    DriveLayout,
     SiteRules,
     Sizes,
     SizingDuty,
@@ -219,13 +218,9 @@ class SizingTask:
         """Permanent and thermal strain of a kind of carcass over the temperatures of the duty [-]."""
         if kind != "steel cord":
             return PERMANENT_STRETCH_TEXTILE.value
-        return PERMANENT_STRETCH_STEEL_CORD.value + STEEL_EXPANSION.value * self.warmth
-
-    @property
-    def warmth(self) -> float:
-        """Temperature difference from the coldest covers to those of the duty [K]."""
-        coldest = self.duty.coldest
-        return 0.0 if coldest is None else si(self.duty.ambient.belt) - si(coldest)
+        warm = si(self.duty.ambient.belt)
+        colder = warm - (warm if self.duty.coldest is None else si(self.duty.coldest))  # [K]
+        return PERMANENT_STRETCH_STEEL_CORD.value + STEEL_EXPANSION.value * colder
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -448,13 +443,8 @@ class SizingTask:
     def wear(self, speed: float) -> float:
         """Wear addition of the cover at a belt speed [m]."""
         duty = self.duty
-        return wear_addition(
-            lump=self.lump,
-            density=si(self.duty.material.heaviest),
-            round_time=2.0 * self.length / speed,
-            abrasiveness=duty.abrasiveness,
-            loading=duty.loading,
-        )
+        return wear_addition(lump=self.lump, density=si(duty.material.heaviest), round_time=2.0 * self.length / speed,
+                             abrasiveness=duty.abrasiveness, loading=duty.loading)  # fmt: skip
 
     def covers(self, choice: DesignChoice, carcass: CarcassClass) -> tuple[float, float]:
         """Top and bottom cover of a candidate with a class of belt [m]."""
@@ -506,9 +496,3 @@ def _carcass_class(kind: str, row: CarcassRow) -> CarcassClass:
 
 def _round_up_to_step(thickness: float, step: float) -> float:
     return step * math.ceil(thickness / step - 1e-9)  # decimals: 6.5 mm is a step
-
-
-def drive_powers(power: float, layout: DriveLayout) -> Sequence[float]:
-    """Power of each drive of a layout, equal shares [W]."""
-    count = {"head": 1, "tail": 1, "head, two pulleys, and tail": 3}.get(layout, 2)
-    return (power / count,) * count
