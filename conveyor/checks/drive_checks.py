@@ -76,8 +76,11 @@ def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
         f"raise drive.start_factor or the motors' torque{torque}",
     )  # fmt: skip
     if not made.failed and any(section.bed is not None for section in result.line.sections):
-        unknown = message("higher friction of the belt at rest on the plate not calculated")
-        made = replace(made, verdict="not checked", required=None, asked=unknown, why=None)
+        least = message(
+            "at least {}, and the higher friction of the belt at rest on the plate, which is not calculated",
+            (start.breakaway, "force"),
+        )
+        made = replace(made, verdict="not checked", required=None, asked=least, why=None)
     yield made
 
 

@@ -42,7 +42,7 @@ class GappedSentence:
     bounded: tuple[bool, ...]
 
     def before(self, found: re.Match[str]) -> str:
-        """What fills a gap that the sentence begins with; empty where it begins with a word of its own."""
+        """Text in a gap that the sentence begins with; empty where it begins with a word of its own."""
         return found[1] if found.start(1) == 0 else ""
 
     @classmethod

@@ -100,7 +100,7 @@ def pipe_roll_lengths(diameter: float, *, outer_radius: float, offset: bool) -> 
     outer_radius : float
         r of the pipe outside of the belt [m], positive.
     offset : bool
-        True where every other roll stands behind the panel, so that three meet in each plane.
+        True where every other roll stands behind the panel, so that three meet in each plane [-].
 
     Returns
     -------

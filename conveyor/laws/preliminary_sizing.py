@@ -189,7 +189,7 @@ def suitable_roll_lengths(length: float, *, belt_width: float, rolls: int) -> tu
     belt_width : float
         B [m], positive, less than the rolls of a set together.
     rolls : int
-        Number of rolls of a set n, at least 1.
+        Number of rolls of a set n [-], at least 1.
 
     Returns
     -------

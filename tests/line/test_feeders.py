@@ -61,7 +61,7 @@ def test_start_after_filling_breaks_the_initial_load_away(feeder):
     more = (math.sin(math.radians(50.0)) + 0.3) * load
     friction = low.line.design_friction
     assert high.line.design_friction == pytest.approx(friction, rel=1e-12)
-    parted = checks(high)["breakaway"].required - checks(low)["breakaway"].required
+    parted = high.motions.design_start.breakaway - low.motions.design_start.breakaway
     assert parted == pytest.approx(friction * more, rel=1e-9)
     assert forces(high) == pytest.approx(forces(low), rel=1e-12)
     assert filled_grip(high).required > filled_grip(low).required
@@ -323,7 +323,8 @@ def test_a_bin_adds_to_the_start_and_nothing_to_flow(feeder):
     assert forces(other) == pytest.approx(forces(one), rel=1e-12)
     load = 850.0 * si(feeder.calculation.gravity) * 4.0 * 0.6 * column
     more = one.line.design_friction * (math.sin(math.radians(50.0)) + 0.3) * load
-    assert checks(other)["breakaway"].required - checks(one)["breakaway"].required == pytest.approx(more, rel=1e-9)
+    before, after = (each.motions.design_start.breakaway for each in (one, other))
+    assert after - before == pytest.approx(more, rel=1e-9)
     assert any("bin_pressure_ratio not given" in line for line in map(str, other.warnings))
     with pytest.raises((InputError, ValueError), match="bin_pressure_ratio: given without bin_height"):
         with_hopper(feeder, bin_pressure_ratio=0.5)
