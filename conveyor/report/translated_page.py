@@ -70,7 +70,7 @@ def localise_ticks(figure: Figure, translator: Translator) -> None:
 
 
 def _local_formatter(written: Formatter, numbers: NumberFormat) -> Formatter:
-    """What another formatter writes, in the signs of a language."""
+    """Text that another formatter writes, in the signs of a language."""
     from matplotlib.ticker import Formatter
 
     class LocalFormatter(Formatter):

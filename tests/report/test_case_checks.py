@@ -74,7 +74,7 @@ def test_a_case_is_checked_as_its_conveyor_alone(plain: CaseStudy) -> None:
 
 def test_every_case_has_every_criterion(plain: CaseStudy) -> None:
     own = {check.key for check in run_checks(calculate(plain.conveyor))}
-    of_bulk = {"filling", "holding_brake", "bulk_slip_start", "bulk_slip_stopping"}
+    of_bulk = {"filling", "bulk_slope", "holding_brake", "bulk_slip_start", "bulk_slip_stopping"}
     for case, of in groupby(plain.checks, key=case_of):
         assert {check.key for check in of} == (own - of_bulk if case.startswith("empty") else own)
 

@@ -255,7 +255,7 @@ def test_what_failed_is_on_the_cover_however_many_passed(brakes, tmp_path):
     sheet = openpyxl.load_workbook(weak.to_excel(tmp_path / "w.xlsx"))["Summary"]
     shown = {row[0].value for row in sheet.iter_rows() if row[6].value == "FAIL"}
     assert shown == set(failed)
-    last = next(str(row[0].value) for row in sheet if "of every criterion" in str(row[0].value))
+    last = next(str(row[0].value) for row in sheet if "of each criterion" in str(row[0].value))
     assert last.endswith(f"all {len(checks(weak))} checks: see Checks and notes")
 
 

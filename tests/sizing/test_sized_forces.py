@@ -85,11 +85,13 @@ def test_the_take_up_gives_the_slackest_load_what_it_lacks():
         states = [SimpleNamespace(smallest=one) for one in smallest]
         return SimpleNamespace(balance=SimpleNamespace(equilibrium=settled), motion_states=states)
 
+    task = SimpleNamespace(take_up_step=500.0)
     slack, taut = load(20e3, 18e3, 3e3, -4.2e3), load(12e3, 12e3, 1e3)
     for loads in ([slack, taut], [taut, slack]):
-        assert part_sizing._take_up_setting(0.0, loads) == pytest.approx(24.5e3)
-        assert part_sizing._take_up_setting(26e3, loads) == pytest.approx(26e3)  # what is there is enough
-    assert part_sizing._take_up_setting(0.0, [taut]) == 0.0
+        assert part_sizing._take_up_setting(task, 0.0, loads, written=False) == pytest.approx(24.5e3)
+        assert part_sizing._take_up_setting(task, 26e3, loads, written=True) == pytest.approx(26e3)  # it is enough
+    assert part_sizing._take_up_setting(task, 0.0, [taut], written=False) == 0.0
+    assert part_sizing._take_up_setting(task, 0.0, [taut], written=True) == pytest.approx(12e3)
 
 
 def test_motors_break_the_belt_away_with_their_rated_power(monkeypatch):

@@ -378,9 +378,11 @@ def test_sets_of_the_us_stand_no_farther_apart_than_cema_suggests():
 
 def test_a_written_design_is_as_short_as_one_by_hand_and_the_same_conveyor(tmp_path, sized):
     written = dump_given(sized.best.conveyor)
-    assert len(written.splitlines()) <= 120  # eight lines a pulley, five pulleys
+    assert (
+        len(written.splitlines()) <= 125
+    )  # eight lines a pulley, five pulleys; four of the case at the coldest, one of its take-up
     assert written.count("compound: standard-cover") == 2
-    assert not re.search("^(cases|scenarios|site|report):", written, re.MULTILINE)
+    assert not re.search("^(scenarios|site|report):", written, re.MULTILINE)
     path = tmp_path / "design.yaml"
     path.write_text(written)
     assert fingerprint(conveyor.load(path)) == fingerprint(sized.best.conveyor)
