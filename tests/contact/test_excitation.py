@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve
+from conveyor.contact.fields.energy_balance import pressure_spectrum
 from conveyor.contact.solvers.solver_state import SolverState
 from conveyor.errors import NoSolutionError
 
@@ -70,3 +71,15 @@ def test_elastic_layers_have_no_band(problem):
     with pytest.raises(NoSolutionError, match="no loss"):
         solve(problem).excitation()
     assert load_curve(problem, 0.001, 0.004).excitation_widest.size == 0
+
+
+def test_the_spectrum_of_strips_is_the_transform_of_their_pressure():
+    """(1/2π) ∫ p̃ e^(-imX) dX over X = X_l + α_l cos θ, by the trapezoidal rule: exact to rounding on these series."""
+    strips = [(-0.4, 0.2, np.array([1.0, 0.3, -0.2])), (0.7, 0.1, np.array([0.5, -0.4]))]
+    m, theta = np.array([1.0, 2.0, 7.0, 40.0]), np.linspace(0.0, np.pi, 401)
+    direct = np.zeros(m.size, dtype=complex)
+    for centre, alpha, c in strips:
+        pressure = c @ np.sin(np.arange(1, c.size + 1)[:, None] * theta)
+        wave = np.exp(-1j * m[:, None] * (centre + alpha * np.cos(theta)))
+        direct += np.trapezoid(wave * pressure * alpha * np.sin(theta), theta, axis=1) / (2.0 * np.pi)
+    assert pressure_spectrum(m, strips) == pytest.approx(direct, rel=1e-12, abs=1e-15)

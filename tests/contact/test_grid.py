@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from conveyor.contact import ContactProblem, CreepSpectrum, solve
+from conveyor.contact.fields.contact_fields import GridFields
 from conveyor.contact.layers.layer_models import Layer
 from conveyor.contact.solvers import grid_solver as module
 from conveyor.contact.solvers.grid_solver import ContactGrid, solve_grid
@@ -202,6 +203,15 @@ def test_exchanges_are_bounded(monkeypatch):
 
 # a thin free plate on whose grid block exchanges run in circles
 PLATE = ContactProblem("free", 0.259, 3.33e-4, CreepSpectrum(1.5e-6, [0.5, 0.4999985], [149.0, 2.56e6]), 0.00167, 0.16)
+
+
+@pytest.mark.parametrize(("pressure", "error"), [([1.0, 4.0, 3.0], 0.75), ([3.0, 4.0, 1.0], 0.75), ([4.0, 3.0], 1.0)])
+def test_the_peak_of_a_grid_errs_by_the_step_to_its_lower_neighbour(pressure, error):
+    """Beyond the last node of a strip there is none."""
+    problem = ContactProblem("free", 0.4, 0.13, CreepSpectrum(0.1, [0.9], [3.0]), 1.0)
+    grid = solve_grid(problem, 512)
+    given = GridFields(replace(grid, x=grid.x[: len(pressure)], pressure=np.array(pressure)))
+    assert given.errors(problem).peak == pytest.approx(error, rel=1e-12)
 
 
 class TestRaisedFromNothing:

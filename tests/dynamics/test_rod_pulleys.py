@@ -203,6 +203,14 @@ def test_the_highest_speed_is_looked_for_on_the_whole_belt_from_its_begin_on():
     i, k = np.unravel_index(int(every.argmax()), every.shape)
     assert at == pytest.approx(float(late.record.times[i]), abs=1e-9)
     assert place in {late.place(max(0, int(k) - 1)), late.place(min(int(k), late.middles.size - 1))}
+    loop, stretches = late.setup.loop, late.line.loop.stretches
+    for i, middle in enumerate(late.middles.tolist()):
+        (here,) = (
+            stretches[order]
+            for order, begin, end in zip(loop.order, loop.way[:-1], loop.way[1:], strict=True)
+            if begin < middle < end
+        )
+        assert late.place(i) == f"{here.section}, {here.strand}"
 
 
 def test_a_free_end_runs_twice_as_fast_as_the_pulley_that_pulls_it():

@@ -349,6 +349,12 @@ def test_jonkers_factor():
     assert cf.jonkers_friction(1.0, thickness=1.0, storage=1.0, diameter=1.0, tan_delta=1.0) == printed("1.138255")
 
 
+def test_jonkers_goes_with_the_third_root_of_any_load():
+    at = {"thickness": 1.0, "storage": 1.0, "diameter": 1.0, "tan_delta": 1.0}
+    assert cf.jonkers_friction(0.125, **at) == pytest.approx(0.5 * cf.jonkers_friction(1.0, **at), rel=1e-14)
+    assert cf.jonkers_friction(0.0, **at) == 0.0
+
+
 def test_jonkers_scales_as_the_winkler_foundation_does():
     base = {"thickness": 0.006, "storage": 8e6, "diameter": 0.159, "tan_delta": 0.2}
     f = cf.jonkers_friction(2e3, **base)
