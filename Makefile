@@ -4,7 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 OUT ?= out
 
-.PHONY: report test oldest lint types floors docs check bench release tag clean
+.PHONY: report test oldest lint types floors docs pages check bench release tag clean
 
 $(VENV)/.run: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -55,6 +55,15 @@ $(VENV)-oldest/.test: pyproject.toml
 
 oldest: $(VENV)-oldest/.test
 	$(VENV)-oldest/bin/python -m pytest -n auto --dist worksteal
+
+# What is printed from the code: fields, sheets, names, printed and measured cases.
+pages: $(VENV)/.test
+	$(BIN)/conveyor schema --markdown > docs/spec.md
+	$(BIN)/conveyor schema --workbook > docs/workbook.md
+	$(BIN)/conveyor schema --nomenclature > docs/nomenclature.md
+	$(BIN)/python tests/test_printed_page.py
+	$(BIN)/python tests/test_validation_page.py
+	$(BIN)/python -m tests.promised_names
 
 bench: $(VENV)/.test
 	$(BIN)/python benchmarks/speed.py
