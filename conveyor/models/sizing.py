@@ -162,8 +162,8 @@ class SiteRules(Model):
     roll_diameters: tuple[RollDiameter, ...] = ()
     """Diameters of rolls to choose from; without it the usual ones of the width, in the US those of the class."""
     carry_spacings: tuple[SetSpacing, ...] = ()
-    """Distances of carry sets to choose from; without it those in use, from 1 km on overland ones; in the US, below
-    1 km, at most the normal ones of CEMA for width and density."""
+    """Distances of carry sets to choose from; without it those in use, overland ones with `site: overland`; in the US
+    without it at most the normal ones of CEMA for width and density."""
     return_spacings: tuple[SetSpacing, ...] = ()
     """The same of return sets."""
     loading_spacing: SetSpacing | None = None

@@ -49,9 +49,6 @@ from conveyor.sizing.listed_sizes import listed_carcasses, listed_rolls, motor_p
 from conveyor.sizing.pulley_sizes import PulleySizes
 from conveyor.units import Quantity, read_si, si
 
-_OVERLAND_LENGTH: Final = 1000.0  # [m], length from which spacings are those of overland belts; general knowledge
-
-
 _KEPT_FIELDS: Final = ("site", "material", "ambient", "operation", "calculation", "report")
 
 
@@ -269,7 +266,7 @@ class SizingTask:
     def spacings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Spacings of carry and return sets to choose from [m]."""
         rules, wide = self.rules, ", US" if self.duty.series == "US" else ""
-        if self.length >= _OVERLAND_LENGTH:
+        if self.duty.site == "overland":
             wide = ", overland"
         pairs = []
         for strand, asked, series in (
@@ -424,7 +421,7 @@ class SizingTask:
         """Widest carry and return spacings for a width and the bulk [m]; infinite where the duty gives its own."""
         rules = self.rules
         carry = back = math.inf
-        if self.duty.series == "US" and self.length < _OVERLAND_LENGTH:
+        if self.duty.series == "US" and self.duty.site != "overland":
             carry, back = normal_spacings(trough.width.belt, density=self.density)
         return math.inf if rules.carry_spacings else carry, math.inf if rules.return_spacings else back
 
