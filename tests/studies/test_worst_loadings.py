@@ -11,6 +11,7 @@ import pytest
 
 from conveyor.calculated_conveyor import Variant, common_take_up_duty
 from conveyor.checks import Check, governing_by_subject, severity_rank, unsearched_criteria
+from conveyor.laws.resistance.resistance_defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.loop import worst_loadings
 from conveyor.loop.take_up_duty import at_common_setting
 from conveyor.loop.worst_loadings import CriterionLoadings
@@ -283,3 +284,19 @@ def test_motors_not_given_start_the_empty_belt_with_what_the_full_one_needs():
     given["drive"]["installed_power"] = "1 kW"  # what is given is what there is
     _, weak = reported(from_data(given))
     assert {check.verdict for (key, _), check in weak.items() if key == "breakaway"} == {"FAIL"}
+
+
+def test_a_start_without_control_breaks_the_belt_away_with_the_torque_at_rest():
+    """Of 1.6 times 110 kW x 94 % / 4 m/s the drives' 10 t keep what accelerates them."""
+    drive = {name: value for name, value in DATA["drive"].items() if name != "start_factor"}
+    torques = [{"speed": "0 %", "torque": 1.6}, {"speed": "100 %", "torque": 2.4}]
+    drive |= {"torque_curve": torques, "installed_power": "110 kW", "reduced_mass": "10 t", "efficiency": "94 %"}
+    given = line(drive=drive, calculation={"not_given": "nothing"})
+    count = len(given.route.sections)
+    ends = at_common_setting([closed(bearing(given, [each] * count)) for each in (True, False)])
+    balance = ends[0]
+    mass, steady = balance.equilibrium.mass, balance.equilibrium.resistance(1.0)
+    at_rest = steady + (1.6 * 110e3 * 0.94 / 4.0 - steady) * mass / (mass + 10e3)
+    stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * float(balance.line.roll_drag_forces.sum())
+    (value,) = CriterionLoadings(*ends).criterion_figures(np.ones((1, count), dtype=bool))["breakaway"]
+    assert value == pytest.approx(-at_rest / (steady + stuck), rel=1e-9)
