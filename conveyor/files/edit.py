@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
+from ruamel.yaml import YAML
 from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from conveyor.errors import InputError
@@ -17,6 +18,7 @@ from conveyor.files.document import parse_document
 _PATH_PART: Final = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 _PLAIN: Final = re.compile(r"(?:[^\W_]|[-+.]\d)(?:[\w ./()+*^%°²³=<>~;–-]*[\w./)+*^%°²³=<>~;–-])?")
 """Text that may stand without quotes, in flow style too."""
+_TEXT_TAG: Final = "tag:yaml.org,2002:str"
 _INDENT: Final = 2
 _COMMENT_BLANKS: Final = 2
 """Blanks left before a comment, if there were as many."""
@@ -242,8 +244,10 @@ def _value_text(value: Any, old: Node | None, *, is_json: bool) -> str:
 
 
 def _is_plain(value: str) -> bool:
-    """True for text that YAML reads as the same text without quotes."""
+    """True for text that YAML reads as the same text without quotes, other readers too: 01 and 2020-01-01 are none."""
     if _PLAIN.fullmatch(value) is None:
+        return False
+    if YAML(typ="safe", pure=True).resolver.resolve(ScalarNode, value, (True, False)) != _TEXT_TAG:
         return False
     return bool(parse_document(f"value: {{value: {value}}}", Path("value.yaml")).data["value"]["value"] == value)
 

@@ -6,7 +6,7 @@ import difflib
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
@@ -96,6 +96,9 @@ def test_what_cannot_be_changed_in_place_is_refused(before, path, message):
 
 
 @given(st.text(st.characters(exclude_categories=["Cs", "Cc"], exclude_characters="\u2028\u2029\ufeff"), max_size=30))
+@example("01")
+@example("1_000")
+@example("2020-01-01")
 def test_every_text_is_read_back(text):
     after = edit_values("a: x  # y\nb: {c: z}\n", {"a": text, "b.c": text}, Path("spec.yaml"))
     assert YAML(typ="safe", pure=True).load(after) == {"a": text, "b": {"c": text}}
