@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from conveyor.calculated_conveyor import CalculatedConveyor
-from conveyor.checks.check import Check, Relation, check_against_limit
+from conveyor.checks.check import Check, Relation, check_against_limit, leave_open_unless_failed
 from conveyor.laws.belt_strength import RATED_START
 from conveyor.laws.turnover import least_turnover_length
 from conveyor.units.sentences import message
@@ -91,10 +90,8 @@ def belt_turnover(result: CalculatedConveyor) -> Iterator[Check]:
         why="turnovers of {calculated} leave the middle of the belt too slack, {required} are usual (12 belt widths, "
         "rule of thumb): longer ones, or ask the belt's maker",
     )  # fmt: skip
-    if belt.steel_cord and not made.failed:
-        unknown = message("no rule for steel cord, ask the belt's maker")
-        made = replace(made, verdict="not checked", required=None, asked=unknown, why=None)
-    yield made
+    unknown = message("no rule for steel cord, ask the belt's maker")
+    yield leave_open_unless_failed(made, unknown) if belt.steel_cord else made
 
 
 def cover_thickness(result: CalculatedConveyor) -> Iterator[Check]:

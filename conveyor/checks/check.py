@@ -195,6 +195,11 @@ def check_against_limit(  # noqa: PLR0917 reads as the sentence it checks
     return Check(key, name, calculated, required, kind, shown, asked, judged, why, relation, where)
 
 
+def leave_open_unless_failed(check: Check, asked: Message) -> Check:
+    """A check whose limit is not all that is asked: not checked where it does not fail, with what is asked in words."""
+    return check if check.failed else replace(check, verdict="not checked", required=None, asked=asked, why=None)
+
+
 def governing_by_subject(every: Iterable[Check]) -> tuple[Check, ...]:
     """Governing check of each criterion and subject, those of one criterion together.
 

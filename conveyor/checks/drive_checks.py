@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Final
 
 from conveyor.calculated_conveyor import CalculatedConveyor
-from conveyor.checks.check import Check, Relation, check_against_limit, pass_or_fail
+from conveyor.checks.check import Check, Relation, check_against_limit, leave_open_unless_failed, pass_or_fail
 from conveyor.laws.drives import DRIVE_SPEED_TOLERANCE
 from conveyor.laws.motion import Stop
 from conveyor.line.line import Line
@@ -75,13 +75,12 @@ def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
         why="the starting force of {calculated} does not overcome the resistance after standstill, up to {required}: "
         f"raise drive.start_factor or the motors' torque{torque}",
     )  # fmt: skip
-    if not made.failed and any(section.bed is not None for section in result.line.sections):
-        least = message(
-            "at least {}, and the higher friction of the belt at rest on the plate, which is not calculated",
-            (start.breakaway, "force"),
-        )
-        made = replace(made, verdict="not checked", required=None, asked=least, why=None)
-    yield made
+    least = message(
+        "at least {}, and the higher friction of the belt at rest on the plate, which is not calculated",
+        (start.breakaway, "force"),
+    )
+    on_plates = any(section.bed is not None for section in result.line.sections)
+    yield leave_open_unless_failed(made, least) if on_plates else made
 
 
 def comes_to_rest(result: CalculatedConveyor) -> Iterator[Check]:

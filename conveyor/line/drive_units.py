@@ -111,12 +111,12 @@ def _torque_at_pulley(conveyor: Conveyor, pulley: DrivePulley, torque: Quantity 
     """Torque at the pulley of one at a shaft of the drive [N m], without losses; None if not given."""
     if torque is None or shaft == "pulley":
         return si_or_none(torque)
+    if pulley.gear_ratio is not None:
+        return si(torque) * pulley.gear_ratio
     radius = _drive_radius(conveyor, pulley)
-    if pulley.gear_ratio is None and pulley.motor_speed is not None and radius is not None:
-        return si(torque) * si(pulley.motor_speed) * 2.0 * math.pi * radius / si(conveyor.belt.speed)
-    if pulley.gear_ratio is None:
+    if pulley.motor_speed is None or radius is None:
         raise AssertionError("a torque at the motor's shaft has a ratio, or speed and radius")
-    return si(torque) * pulley.gear_ratio
+    return si(torque) * si(pulley.motor_speed) * 2.0 * math.pi * radius / si(conveyor.belt.speed)
 
 
 def _drive_radius(conveyor: Conveyor, pulley: DrivePulley) -> float | None:

@@ -67,7 +67,7 @@ class MotionState:
     held : float
         Tension at the take-up [N].
     spots : tuple of float
-        Tension before every spot of each layout [N].
+        Tension before every spot of the layout [N].
     largest, smallest : float
         Highest and lowest tension round the loop [N].
     early : float

@@ -330,8 +330,7 @@ class SizingDuty(Model):
 
     def _cold_problems(self) -> Iterator[Problem]:
         """Refuse a coldest temperature above that of the duty, and frost by CEMA without its factor."""
-        usual = self.ambient.belt
-        coldest = usual if self.coldest is None else self.coldest
+        usual, coldest = self.ambient.belt, self.lowest_temperature
         if si(coldest) > si(usual):
             told = f"got {text(coldest)}, warmer than the covers of the duty (ambient), {text(usual)}; correct one"
             yield Problem(("coldest",), told)
@@ -353,6 +352,11 @@ class SizingDuty(Model):
             yield Problem(("operation", "price"), message)
         if self.operation.duty:
             yield Problem(("operation", "duty"), "designs are ranked at their full load; give hours_per_year")
+
+    @property
+    def lowest_temperature(self) -> Quantity:
+        """Temperature that motors, strength and take-up are for: the coldest, else that of the covers."""
+        return self.ambient.belt if self.coldest is None else self.coldest
 
     @property
     def series(self) -> Trade:

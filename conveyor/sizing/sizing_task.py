@@ -215,9 +215,8 @@ class SizingTask:
         """Permanent and thermal strain of a kind of carcass over the temperatures of the duty [-]."""
         if kind != "steel cord":
             return PERMANENT_STRETCH_TEXTILE.value
-        warm = si(self.duty.ambient.belt)
-        colder = warm - (warm if self.duty.coldest is None else si(self.duty.coldest))  # [K]
-        return PERMANENT_STRETCH_STEEL_CORD.value + STEEL_EXPANSION.value * colder
+        cooling = si(self.duty.ambient.belt) - si(self.duty.lowest_temperature)  # [K]
+        return PERMANENT_STRETCH_STEEL_CORD.value + STEEL_EXPANSION.value * cooling
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -227,8 +226,7 @@ class SizingTask:
     @property
     def cold(self) -> bool:
         """True if motors, strength and take-up are for a colder conveyor than the energy."""
-        coldest = self.duty.coldest
-        return coldest is not None and si(coldest) < si(self.duty.ambient.belt)
+        return si(self.duty.lowest_temperature) < si(self.duty.ambient.belt)
 
     @cached_property
     def speeds(self) -> tuple[float, ...]:
@@ -472,13 +470,12 @@ class SizingTask:
 
     def colder(self, conveyor: Conveyor) -> Conveyor:
         """The conveyor at the coldest temperature: its covers, and the air around its rolls as its load case has it."""
-        coldest = self.duty.coldest
-        return with_temperature(conveyor, coldest) if coldest is not None and self.cold else conveyor
+        return with_temperature(conveyor, self.duty.lowest_temperature) if self.cold else conveyor
 
     @property
     def cases(self) -> list[dict[str, Any]]:
         """Load cases of the spec of a design: that at the coldest temperature, if any."""
-        return [{"name": "coldest", "temperatures": [self.duty.coldest]}] if self.cold else []
+        return [{"name": "coldest", "temperatures": [self.duty.lowest_temperature]}] if self.cold else []
 
     @property
     def take_up_step(self) -> float:

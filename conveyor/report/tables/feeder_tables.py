@@ -11,7 +11,7 @@ from conveyor.laws.feeder import FEEDER_SPEED
 from conveyor.line.hopper_outlets import HopperOutlet
 from conveyor.line.transfer_parts import LoadingPoint
 from conveyor.loop.hopper_states import HopperState
-from conveyor.loop.pulley_duty import pulley_tensions
+from conveyor.loop.pulley_duty import PulleyDuty, pulley_tensions
 from conveyor.report.table_model import Column, Table
 from conveyor.report.tables.transfer_tables import SHEET
 
@@ -53,9 +53,12 @@ def hopper_state_table(a: CalculatedConveyor) -> Table:
     belt = a.line.belt
 
     def torque(state: HopperState) -> float | None:
-        driven = [i for i, pulley in enumerate(a.line.pulleys) if pulley.driven]
-        sides = [(a.line.pulleys[i].diameter, *pulley_tensions(a.balance, i, state.motion)) for i in driven]
-        return max((0.5 * diameter * abs(before - behind) for diameter, before, behind in sides), default=None)
+        duties = (
+            PulleyDuty(pulley, a.line, ((state.name, *pulley_tensions(a.balance, i, state.motion)),))
+            for i, pulley in enumerate(a.line.pulleys)
+            if pulley.driven
+        )
+        return max((duty.torque for duty in duties), default=None)
 
     def safety(state: HopperState) -> float | None:
         largest = state.motion.largest
